@@ -25,7 +25,9 @@ double ms_since(Clock::time_point start) {
 // All that decides what a kernel is: bytes appended to one string, hashed and compared whole.
 class Key {
   public:
-    explicit Key(const Module& module, const Target& target) {
+    Key(const Module& module, const Target& target, bool with_lines) {
+        std::span<const Location> lines;
+        if (with_lines) lines = module.locations;
         add(target.name);
         add(module.name);
         add(module.frame_slots);
@@ -43,7 +45,7 @@ class Key {
             add(site.message);
             add(site.where);
         }
-        for (const Function& function : module.functions) add_function(function);
+        for (const Function& function : module.functions) add_function(function, lines);
     }
     std::string take() { return std::move(bytes_); }
 
@@ -60,9 +62,10 @@ class Key {
     }
 
     // Source locations do not change code; fault sites' do change what is reported.
-    void add_function(const Function& function) {
+    void add_function(const Function& function, std::span<const Location> locations) {
         add(function.insts.size());
         for (Inst inst : function.insts) {
+            if (!locations.empty()) add(locations[inst.where]);
             inst.where = 0;
             inst.args = 0;
             add_inst(inst);
@@ -117,9 +120,9 @@ std::shared_ptr<const Kernel> emit(const Module& module, const Target& target, u
 
 // The cached kernel, or a new one; `fresh` tells which. A listing can only be had by emitting.
 std::shared_ptr<const Kernel> find_or_emit(const Module& module, const Target& target,
-                                           const SourceFiles* files, std::string* assembly,
+                                           const CompileOptions& options, std::string* assembly,
                                            bool* fresh) {
-    std::string key = Key(module, target).take();
+    std::string key = Key(module, target, options.own_lines).take();
     uint64_t hash = hash_of(key);
     std::promise<std::shared_ptr<const Kernel>> promise;
     {
@@ -129,12 +132,12 @@ std::shared_ptr<const Kernel> find_or_emit(const Module& module, const Target& t
         if (!is_new) {
             KernelFuture known = at->second;
             lock.unlock();
-            if (assembly != nullptr) emit(module, target, hash, files, assembly);
+            if (assembly != nullptr) emit(module, target, hash, options.files, assembly);
             return known.get();
         }
         at->second = promise.get_future().share();
     }
-    std::shared_ptr<const Kernel> kernel = emit(module, target, hash, files, assembly);
+    std::shared_ptr<const Kernel> kernel = emit(module, target, hash, options.files, assembly);
     promise.set_value(kernel);
     std::lock_guard lock(cache().mutex);
     cache().total_ms += kernel->compile_ms;
@@ -156,10 +159,9 @@ KernelPair compile(Module module, const CompileOptions& options) {
     bool listing = options.dumps != nullptr;
     bool fresh_point = false, fresh_frame = false;
     auto listed = [&](std::string& text) { return listing ? &text : nullptr; };
-    pair.point = find_or_emit(module, target, options.files, listed(assembly), &fresh_point);
+    pair.point = find_or_emit(module, target, options, listed(assembly), &fresh_point);
     if (!frame.outputs.empty())
-        pair.frame =
-            find_or_emit(frame, target, options.files, listed(frame_assembly), &fresh_frame);
+        pair.frame = find_or_emit(frame, target, options, listed(frame_assembly), &fresh_frame);
     pair.emit_ms = ms_since(start);
     pair.cached = !fresh_point && !fresh_frame;
     if (listing) {

@@ -24,6 +24,8 @@ struct CompileOptions {
     // Filled when not null: (stage, text) pairs "ir", "ir:fold", ..., "asm", for --dump.
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
     const SourceFiles* files = nullptr;  // names of the source's lines, for debuggers
+    // A cached kernel of the same instructions from other lines is not taken: Kernel::lines counts.
+    bool own_lines = false;
 };
 
 // Optimises, splits and emits. Kernels are cached by the hash of their final IR and the target

@@ -23,7 +23,7 @@ void ControlFlow::op_EndIf() {
 // Leaves kAny for begin_body; copying the first values of variables in between keeps it.
 void ControlFlow::op_Loop() {
     Value loop = cursor_.at();
-    loops_.open();
+    loops_.open(loop);
     assignments_.enter_loop(loop);
     if (cursor_.code().structure.header_of[loop] == loop) begin_body(loop);
 }
@@ -51,6 +51,7 @@ void ControlFlow::op_EndLoop() {
         begin, [&] { assignments_.update_loop_mask(begin, cursor_.root(cursor_->a)); });
     branches_.if_zero(kAny, exit);
     loops_.count_down();
+    loops_.begin_next_slice();
     faults_.report(cursor_.inst(begin).imm);
     a_.bind(exit);
     held_.drop();

@@ -1,6 +1,7 @@
 // jit/codegen/code_plan.cpp: what needs a register, what lies in memory, what its user computes.
 #include "jit/codegen/code_plan_p.h"
 
+#include "jit/codegen/loop_slices_p.h"
 #include "jit/ir/analysis.h"
 #include "jit/ir/fold_inst.h"
 #include "jit/ir/ieee_scope_p.h"
@@ -32,6 +33,7 @@ class Planner {
             plan_known_loops();
         }
         alias_variables();
+        plan_.slices = loop_slices(m_, f_, s_, plan_);
         return std::move(plan_);
     }
 

@@ -29,6 +29,8 @@ struct FunctionPlan {
     // Of Loop: how often its body runs for the lanes that enter, where that is known; else 0. Such
     // a loop counts down in a general register and compares nothing.
     std::vector<int32_t> rounds;
+    // Of Loop: rounds between two looks at KernelArgs::stop; 0: none, it ends soon by itself.
+    std::vector<int32_t> slices;
     bool calls = false;  // has a Call or Service: no register lives through
 };
 

@@ -77,7 +77,10 @@ void FunctionCode::lay_out(int lanes) {
     layout.lanes_a = take(kRow);
     layout.lanes_b = take(kRow);
     Most most = most_of(module, function);
-    layout.counters = take(4 * most.loops);
+    bool sliced =
+        std::any_of(plan.slices.begin(), plan.slices.end(), [](int32_t s) { return s > 0; });
+    layout.counters = take((sliced ? 8 : 4) * most.loops);
+    layout.slices_left = layout.counters + static_cast<int32_t>(4 * most.loops);
     layout.service_args = take(most.args * kRow);
     layout.service_results = take(most.results * kRow);
     for (const ArrayInfo& array : function.arrays) {  // one behind the other: one fill zeroes them

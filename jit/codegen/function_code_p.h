@@ -31,6 +31,7 @@ struct FrameLayout {
     int32_t swap = 0;                  // two rows for old values of loop variables
     int32_t lanes_a = 0, lanes_b = 0;  // rows for per-lane work
     int32_t counters = 0;              // loop counters by depth
+    int32_t slices_left = 0;           // of loops by depth, where any has slices
     int32_t service_args = 0, service_results = 0;
     std::vector<int32_t> arrays;
     int32_t bytes = 0;

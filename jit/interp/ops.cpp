@@ -213,7 +213,8 @@ Value step_end_loop(const Frame& frame, const Inst& inst, Value at) {
         Row& variable = frame.row(begin + 1 + static_cast<Value>(k));
         select(variable, old, swap[k], variable);
     }
-    if (mask_bits(running) == 0) return at + 1;
+    bool stopped = frame.args.stop->load(std::memory_order_relaxed) != 0;
+    if (stopped || mask_bits(running) == 0) return at + 1;
     if (++frame.row(at).lane[0] < frame.program.module.loop_budget) return begin + 1;
     frame.args.fault[frame.code.function->insts[begin].imm] = 1;
     return at + 1;

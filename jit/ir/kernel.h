@@ -1,6 +1,7 @@
 // jit/ir/kernel.h: what a compiled module looks like to its caller.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -35,6 +36,10 @@ struct ServiceCall {
 };
 using ServiceFn = void (*)(const ServiceCall& call);
 
+// Generated code reads it as it lies.
+static_assert(sizeof(std::atomic<int>) == 4 && std::atomic<int>::is_always_lock_free);
+inline constexpr std::atomic<int> kNeverStops{0};
+
 // Laid out for generated code; offsets are asserted in the targets.
 struct KernelArgs {
     const float* const* in = nullptr;        // [Kernel::inputs], each 64-byte aligned, padded to
@@ -47,6 +52,8 @@ struct KernelArgs {
     const RecordSet* record_sets = nullptr;  // [0]: the lights at P
     void* grid = nullptr;                    // handed to services
     int32_t count = 0;                       // points, > 0
+    // Never null. Once it is not 0, long loops end early and outputs are worth nothing.
+    const std::atomic<int>* stop = &kNeverStops;
 };
 using KernelFn = void (*)(const KernelArgs* args);
 

@@ -37,7 +37,8 @@ CheckedCall::CheckedCall(const KernelCall& call)
             .services = call.services.data(),
             .record_sets = call.record_sets.data(),
             .grid = call.host,
-            .count = int32_t(call.count)} {
+            .count = int32_t(call.count),
+            .stop = call.stop ? call.stop : &kNeverStops} {
     CHECK_GT(call.count, size_t(0));
     CHECK_GE(call.row_floats, padded(call.count));
     CHECK_EQ(call.in.size(), kernel_->inputs.size());

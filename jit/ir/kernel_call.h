@@ -25,6 +25,8 @@ struct KernelCall {
     std::span<const ServiceFn> services = {};  // by slot
     std::span<const RecordSet> record_sets = {};
     void* host = nullptr;  // what services see
+    // Once it is not 0, long loops end early and outputs are worth nothing. Null: never.
+    const std::atomic<int>* stop = nullptr;
 
     // Checks the parts and runs all points.
     void run() const;

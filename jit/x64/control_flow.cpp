@@ -67,6 +67,7 @@ void ControlFlow::op_EndLoop() {
     if (!known) leave_unless_any(loop);
     loops_.count_down();
     a_.jnz(loop.header);
+    loops_.begin_next_slice();
     if (!known) faults_.report(cursor_.inst(begin).imm);
     a_.bind(loop.exit);
     held_.drop();

@@ -22,16 +22,22 @@ class OpenLoops {
     void close() { loops_.pop_back(); }
     const OpenLoop& innermost() const { return loops_.back(); }
 
-    // Of the innermost loop: a known number of rounds, or the budget.
+    // Of the innermost loop: a known number of rounds, or the budget; of these its first slice.
     void set_counter();
-    void count_down();  // leaves flags: zero if that was the last round
+    void count_down();  // leaves flags: zero if that was the last round of a slice
+    // Goes on with the next slice, or to the loop's exit if the kernel shall stop. Code behind is
+    // reached after the last slice.
+    void begin_next_slice();
 
     // The loop whose counter counts this value, or null; and that value, some rounds ahead.
     const OpenLoop* counted_by(Value index) const;
     void counted_index(const x86::Gp& to, const OpenLoop& loop, int32_t ahead);
 
   private:
-    x86::Mem counter_slot() const;
+    x86::Mem slot(int32_t first) const;  // by depth
+    x86::Mem counter_slot() const { return slot(cursor_.code().layout.counters); }
+    x86::Mem slices_left() const { return slot(cursor_.code().layout.slices_left); }
+    void write_counter(int32_t rounds);
 
     x86::Assembler& a_;
     const CodeCursor& cursor_;

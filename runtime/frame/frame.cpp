@@ -130,6 +130,7 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
         size_t bad = scene.shading->run_imager(film, settings.integrator.nan);
         film.non_finite += bad;
         report_imager(scene, bad, stats, diagnostics);
+        whole = !scene.shading->stopped();  // its kernels end early too
     }
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     report_shading(scene, shading, counters, settings.integrator, stats, diagnostics);

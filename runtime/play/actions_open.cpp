@@ -67,6 +67,7 @@ std::vector<std::string> lines_of(const PlayerState& state, const ShaderDocument
     line(!picture.aov.empty(), "aov", picture.aov);
     line(picture.false_color, "false_color");
     line(!picture.light.empty(), "light", picture.light);
+    line(picture.wipe_at != plain.wipe_at, "wipe", fmt::format("{}", picture.wipe_at));
     line(picture.hold_rate != plain.hold_rate, "hold_rate", fmt::format("{}", picture.hold_rate));
     line(!picture.adapt, "adapt");
     line(!picture.refine, "refine");
@@ -95,6 +96,8 @@ Session session_of(const PlayerCore& core) {
     session.edits = core.edits;
     session.panels = state.panels;
     session.commands = lines_of(state, core.document);
+    if (const Picture* kept = core.kept.get())
+        session.kept = {{kept->width, kept->height, kept->rgba}, kept->frame};
     return session;
 }
 

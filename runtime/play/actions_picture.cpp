@@ -141,21 +141,20 @@ CommandResult action_refine(PlayerCore& core, const Arguments&) {
 }
 
 CommandResult action_keep(PlayerCore& core, const Arguments&) {
-    if (core.kept) {
-        core.kept.reset();
-        core.state.picture.wipe.clear();
-        return {};
-    }
-    std::shared_ptr<const Picture> picture = picture_now(core);
-    if (!picture) return refused("there is no picture yet");
-    core.kept = picture;
-    core.state.picture.wipe = fmt::format("frame {:g}", picture->frame);
+    std::shared_ptr<const Picture> picture = core.kept ? nullptr : picture_now(core);
+    if (!core.kept && !picture) return refused("there is no picture yet");
+    core.keep(std::move(picture));
     return {};
 }
 
 CommandResult action_wipe(PlayerCore& core, const Arguments& a) {
     if (!(a.number(0) >= 0 && a.number(0) <= 1)) return refused("wipe takes 0 to 1", 1);
     core.state.picture.wipe_at = a.number(0);
+    return {};
+}
+
+CommandResult action_rays(PlayerCore& core, const Arguments&) {
+    core.state.picture.rays = !core.state.picture.rays;
     return {};
 }
 

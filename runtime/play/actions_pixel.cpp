@@ -1,8 +1,9 @@
-// runtime/play/actions_pixel.cpp: what is known of the clicked pixel, to files.
+// runtime/play/actions_pixel.cpp: what is known of the clicked pixel and of the scene, to files.
 #include <fmt/format.h>
 
 #include <fstream>
 
+#include "runtime/explain/explain.h"
 #include "runtime/play/core_p.h"
 #include "runtime/play/pixel_insight.h"
 #include "runtime/scene/camera.h"
@@ -21,6 +22,8 @@ std::shared_ptr<const PixelStory> story_of(ShownScene& scene, const ViewOrder& o
 
 namespace {
 
+constexpr double kExplainSeconds = 60;  // a frame may be in work
+
 CommandResult write_text(PlayerCore& core, const std::string& file, const std::string& text) {
     std::ofstream out(file, std::ios::binary);
     out << text;
@@ -30,6 +33,15 @@ CommandResult write_text(PlayerCore& core, const std::string& file, const std::s
 }
 
 }  // namespace
+
+CommandResult action_explain(PlayerCore& core, const Arguments& a) {
+    if (!core.info) return refused("there is no scene yet");
+    core.explain_scene();
+    core.wait_for([&] { return core.loop.answered(); }, kExplainSeconds);
+    const auto& rows = core.state.explained;
+    if (!rows) return refused("the scene is not there yet");
+    return write_text(core, a.text(0), explained_json(*rows));
+}
 
 CommandResult action_variables(PlayerCore& core, const Arguments& a) {
     const PixelStory* story = core.state.selection.story.get();

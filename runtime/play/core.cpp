@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "runtime/explain/explain.h"
 #include "runtime/play/clock.h"
 #include "runtime/trade/knobs.h"
 
@@ -193,6 +194,14 @@ void PlayerCore::take_session(const Session& taken, const ShownScene& shown) {
         sized = true;
     }
     state.panels = taken.panels;
+    if (taken.kept) {
+        auto picture = std::make_shared<Picture>();
+        picture->width = taken.kept->image.width;
+        picture->height = taken.kept->image.height;
+        picture->rgba = taken.kept->image.rgba;
+        picture->frame = taken.kept->frame;
+        keep(std::move(picture));
+    }
     for (const std::string& line : taken.commands) {
         Words words = split_words(line);
         const Command* command = words.texts.empty() ? nullptr : find_command(words.texts.front());
@@ -200,6 +209,12 @@ void PlayerCore::take_session(const Session& taken, const ShownScene& shown) {
         words.texts.erase(words.texts.begin());
         act(size_t(command - commands().data()), words.texts);
     }
+}
+
+// Left of the wipe from now on.
+void PlayerCore::keep(std::shared_ptr<const Picture> picture) {
+    kept = std::move(picture);
+    state.picture.wipe = kept ? fmt::format("frame {:g}", kept->frame) : "";
 }
 
 // What has become of the edited text.
@@ -274,6 +289,7 @@ DisplaySettings PlayerCore::display_settings() const {
     display.encoding = request.color;
     display.kept = kept;
     display.wipe_at = state.picture.wipe_at;
+    if (state.picture.rays) display.rays = state.selection.story;
     return display;
 }
 
@@ -281,6 +297,21 @@ void PlayerCore::send_order() {
     if (!info) return;
     loop.order(view_order(), display_settings());
     order_thumbnails();
+    const bool shown = std::ranges::find(state.panels, "explained") != state.panels.end();
+    if (shown && std::exchange(explained_serial, info->serial) != info->serial) explain_scene();
+}
+
+// The rows come with take_news().
+void PlayerCore::explain_scene() {
+    std::string preset(kDefaultQuality);
+    for (const std::string& word : request.words)
+        if (word.starts_with("--quality=")) preset = word.substr(word.find('=') + 1);
+    loop.ask({[this, preset](ShownScene& shown) -> Answer {
+                  auto rows = std::make_shared<const std::vector<Explained>>(
+                      explain(*shown.scene, shown.request.quality, preset));
+                  return [this, rows] { state.explained = rows; };
+              },
+              false});
 }
 
 // While the panel is open: our shaders on the selected object, or on the first that wears the

@@ -39,8 +39,9 @@ struct PlayerCore {
     std::condition_variable woken;
     bool typing = false;  // the last change was of the text, by keys
     bool news = false;
-    bool files_changed = false;  // under the same mutex
-    bool sized = false;          // by a command: another scene does not change it
+    bool files_changed = false;     // under the same mutex
+    uint64_t explained_serial = 0;  // of the scene that was explained last
+    bool sized = false;             // by a command: another scene does not change it
     std::optional<std::pair<raytrace::Camera, dvec3>> answered_view;
 
     FileWatch watch;
@@ -67,6 +68,8 @@ struct PlayerCore {
     void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
     void record_line(const Command& command, const std::vector<std::string>& arguments);
     void restore_text();
+    void explain_scene();  // to PlayerState::explained, when the answer comes
+    void keep(std::shared_ptr<const Picture> picture);  // to compare with; null: none
     void rebuild() { maker.edit(edits); }
     // Another scene from now on, as soon as it is read; with what a session says of it.
     void open(const SceneRequest& scene, std::optional<Session> with);

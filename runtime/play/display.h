@@ -11,6 +11,8 @@
 
 namespace kinora {
 
+struct PixelStory;  // runtime/play/pixel/pixel_story.h
+
 struct DisplaySettings {
     ToneCurve tone = ToneCurve::Plain;
     std::string aov;  // a parameter of surfaces, or a name of below; "" the picture
@@ -18,6 +20,7 @@ struct DisplaySettings {
     ColorEncoding encoding = ColorEncoding::Srgb;
     std::shared_ptr<const Picture> kept;  // shown left of `wipe_at`, if of the same size
     double wipe_at = 0.5;
+    std::shared_ptr<const PixelStory> rays;  // drawn over the picture; for RenderLoop
 
     bool operator==(const DisplaySettings&) const = default;
 };

@@ -9,10 +9,10 @@
 
 #include "runtime/frame/frame.h"
 #include "runtime/play/guide.h"
-#include "runtime/play/session/session.h"
+#include "runtime/play/pace/pacer.h"
+#include "runtime/play/pace/patience.h"
+#include "runtime/play/pixel/draw_rays.h"
 #include "runtime/scene/camera.h"
-#include "runtime/scene/transforms.h"
-#include "runtime/scene/values.h"
 
 namespace kinora {
 
@@ -28,7 +28,6 @@ constexpr size_t kTimes = 120;
 constexpr int kSomeShare = 8;     // a pass of a share of the samples comes before the whole
 constexpr int kManySamples = 16;  // where there are at least so many
 constexpr int kCostTile = 8;      // pixels a side, that costs are measured in
-constexpr double kLate = 1.5;     // a quick frame this many times too late is let go for a newer
 
 // Small tiles say where the costs are.
 void measure_costs(FrameSettings& settings, PixelCosts& costs) {
@@ -37,41 +36,14 @@ void measure_costs(FrameSettings& settings, PixelCosts& costs) {
     settings.integrator.chunk_rays = size_t(kCostTile) * kCostTile;
 }
 
+// The film as the picture shows it, and rays over it.
+void show_film(const raytrace::Film& film, const DisplaySettings& settings, Picture& to) {
+    display(film, to.guide, to.costs, settings, to.rgba);
+    if (settings.rays)
+        draw_rays(settings.rays->rays, to.view, to.origin, to.width, to.height, to.rgba);
+}
+
 }  // namespace
-
-std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {
-    Scene& scene = *shown.scene;
-    evaluate(scene, seconds_of(shown.rate, order.frame));
-    update_transforms(scene);
-    if (order.camera_index < scene.cameras.size()) scene.camera = order.camera_index;
-    if (raytrace::is_error(set_view(scene, order.width, order.height))) return std::nullopt;
-    return scene.view;
-}
-
-std::optional<dvec3> place_of(ShownScene& shown, const std::string& node, double frame) {
-    return place_at(*shown.scene, node, seconds_of(shown.rate, frame));
-}
-
-double time_of(const ShownScene& shown, const ViewOrder& order) {
-    return seconds_of(shown.rate, order.frame);
-}
-
-FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, PlacedCamera& placed) {
-    FrameSettings settings = shown.settings;
-    settings.width = order.width;
-    settings.height = order.height;
-    settings.gain *= std::exp2(order.exposure);
-    if (order.only_light < shown.scene->lights.size())
-        settings.insight.only_light = order.only_light;
-    settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
-    if (order.camera) {
-        placed = placed_camera(*shown.scene, *order.camera, order.follow, time_of(shown, order));
-        settings.camera = &placed;
-    } else if (order.camera_index < shown.scene->cameras.size()) {
-        shown.scene->camera = order.camera_index;
-    }
-    return settings;
-}
 
 // Kept from frame to frame.
 struct RenderLoop::Memory {
@@ -83,22 +55,11 @@ struct RenderLoop::Memory {
     std::shared_ptr<ShownScene> closer_of;
 };
 
-bool ViewOrder::same_picture(const ViewOrder& o) const {
-    auto camera_key = [](const FreeCamera& c) {
-        return std::tuple(c.pivot, c.distance, c.axes, c.parallel, c.half_height);
-    };
-    bool same_camera =
-        camera.has_value() == o.camera.has_value() &&
-        (camera ? camera_key(*camera) == camera_key(*o.camera) : camera_index == o.camera_index);
-    return same_camera && follow == o.follow && frame == o.frame && width == o.width &&
-           height == o.height && exposure == o.exposure && only_light == o.only_light;
-}
-
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
-    : real_time_(real_time),
-      wake_(std::move(wake)),
-      memory_(std::make_unique<Memory>()),
-      thread_([this] { run(); }) {}
+    : real_time_(real_time), wake_(std::move(wake)), memory_(std::make_unique<Memory>()) {
+    threads_.emplace_back([this] { run(); });
+    threads_.emplace_back([this] { end_late_frames(); });
+}
 
 RenderLoop::~RenderLoop() {
     {
@@ -107,7 +68,8 @@ RenderLoop::~RenderLoop() {
         stop_ = 1;
     }
     wanted_.notify_one();
-    thread_.join();
+    overtaken_.notify_one();
+    for (std::thread& thread : threads_) thread.join();
 }
 
 void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
@@ -147,22 +109,13 @@ void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
         }
         if (!same) {
             next_ = Pass::Quick;
-            if (in_work_) {
-                // Time that goes by never ends a frame, and no two in a row are ended: there is
-                // always a next picture.
-                ViewOrder then = in_work_->order;
-                then.frame = order.frame;
-                bool moved = !then.same_picture(order);
-                bool late = work_began_.ms() > kLate * 1000 / std::max(order.hold_rate, 1e-3);
-                bool ended_last = !times_.empty() && times_.back().cancelled;
-                bool quick = in_work_->pass == Pass::Quick;
-                if (!quick || (real_time_ && moved && late && !ended_last)) stop_ = 1;
-            }
+            if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;
         } else if ((refines_now || quality_changed) && next_ == Pass::Done) {
             next_ = Pass::Quick;
         }
     }
     wanted_.notify_one();
+    overtaken_.notify_one();
 }
 
 void RenderLoop::ask(Question question) {
@@ -172,6 +125,7 @@ void RenderLoop::ask(Question question) {
         if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;  // it begins again after it
     }
     wanted_.notify_one();
+    overtaken_.notify_one();
 }
 
 std::shared_ptr<const Picture> RenderLoop::picture() const {
@@ -254,6 +208,35 @@ void RenderLoop::run() {
         lock.unlock();
         wake_();
         lock.lock();
+    }
+}
+
+// With the lock. Does something wait for the end of the quick frame in work? Time that goes by
+// never ends a frame.
+bool RenderLoop::is_overtaken() const {
+    if (!in_work_ || !real_time_ || stop_) return false;
+    if (!questions_.empty() && !questions_.front().posed) return true;
+    ViewOrder then = in_work_->order;
+    then.frame = order_.frame;
+    return !then.same_picture(order_);
+}
+
+// A thread of its own: a frame that takes long looks at `stop_` alone.
+void RenderLoop::end_late_frames() {
+    std::unique_lock lock(mutex_);
+    while (!quit_) {
+        if (!is_overtaken()) {
+            overtaken_.wait(lock);
+            continue;
+        }
+        auto whole = std::find_if(times_.rbegin(), times_.rend(),
+                                  [](const StageTimes& times) { return !times.cancelled; });
+        double left =
+            patience_ms(order_.hold_rate, size_t(whole - times_.rbegin())) - work_began_.ms();
+        if (left <= 0)
+            stop_ = 1;
+        else
+            overtaken_.wait_for(lock, std::chrono::duration<double, std::milli>(left));
     }
 }
 
@@ -456,7 +439,7 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     DisplaySettings display = step.display;
     if (small && !shows_guide(display.aov) && !shows_costs(display.aov))
         display.aov.clear();  // planes come with all pixels
-    kinora::display(*film, to.guide, to.costs, display, to.rgba);
+    show_film(*film, display, to);
 }
 
 void RenderLoop::answer(const Step& step) {
@@ -478,8 +461,7 @@ void RenderLoop::redisplay(const Step& step) {
     to->serial = serial;
     bool small = to->film.width != to->width || to->film.height != to->height;
     if (small) enlarge(to->film, to->guide, to->width, to->height, memory_->enlarged);
-    kinora::display(small ? memory_->enlarged : to->film, to->guide, to->costs, step.display,
-                    to->rgba);
+    show_film(small ? memory_->enlarged : to->film, step.display, *to);
     publish(std::move(to));
 }
 

@@ -13,32 +13,10 @@
 
 #include "runtime/base/stats.h"
 #include "runtime/play/display.h"
-#include "runtime/play/pacer.h"
-#include "runtime/play/session/free_camera.h"
 #include "runtime/play/shown_scene.h"
+#include "runtime/play/view_order.h"
 
 namespace kinora {
-
-struct PlacedCamera;  // runtime/scene/camera.h
-
-// What a picture is to show.
-struct ViewOrder {
-    double frame = 0;
-    std::optional<FreeCamera> camera;  // none: the scene's camera `camera_index`
-    // The free camera moves with a node that was there when it began to.
-    std::optional<std::pair<std::string, dvec3>> follow;
-    uint32_t camera_index = 0;
-    uint32_t only_light = kNone;  // of Scene::lights
-    int width = 640, height = 360;
-    double exposure = 0;   // stops above the request's
-    bool playing = false;  // the next one comes soon: not refined, and not cancelled for it
-    bool refine = true;
-    bool adapt = true;  // fewer pixels while it moves
-    double hold_rate = 30;
-
-    // The same picture, however it is displayed and refined.
-    bool same_picture(const ViewOrder& other) const;
-};
 
 // Done between two frames, on the thread of the pictures; what it gives is run by who takes it.
 using Answer = std::function<void()>;
@@ -46,17 +24,6 @@ struct Question {
     std::function<Answer(ShownScene&)> ask;
     bool posed = false;  // only once the scene stands as the last order wants it
 };
-
-// The view of an order, without a picture of it. For questions. Nothing where there is none.
-std::optional<raytrace::Camera> view_of(ShownScene& scene, const ViewOrder& order);
-
-// What the refined picture of an order is made with, and its time in seconds. `placed` keeps the
-// camera that is moved by hand.
-FrameSettings refined_settings(ShownScene& scene, const ViewOrder& order, PlacedCamera& placed);
-double time_of(const ShownScene& scene, const ViewOrder& order);
-
-// Where a node stands at a frame; nothing where there is none of that name. Likewise.
-std::optional<dvec3> place_of(ShownScene& scene, const std::string& node, double frame);
 
 class RenderLoop {
   public:
@@ -101,6 +68,8 @@ class RenderLoop {
     };
 
     void run();
+    void end_late_frames();
+    bool is_overtaken() const;
     std::optional<Step> next_step();
     void plan(Step& step) const;
     Pass after(const Step& step) const;
@@ -119,7 +88,7 @@ class RenderLoop {
     const bool real_time_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
-    std::condition_variable wanted_;
+    std::condition_variable wanted_, overtaken_;
     // Guarded by the mutex.
     std::shared_ptr<ShownScene> scene_;
     ViewOrder order_;
@@ -140,7 +109,7 @@ class RenderLoop {
     std::atomic<int> stop_{0};
     struct Memory;
     std::unique_ptr<Memory> memory_;
-    std::thread thread_;
+    std::vector<std::thread> threads_;  // run(), end_late_frames()
 };
 
 }  // namespace kinora

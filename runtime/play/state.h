@@ -52,6 +52,7 @@ struct PictureState {
     std::string light;     // the one that shines alone, as the scene lists it; "" all
     std::string wipe;      // the picture kept by `keep`, left of `wipe_at`; "" none
     double wipe_at = 0.5;  // share of the width
+    bool rays = false;     // those of the clicked pixel are drawn
 };
 
 // What lies under a pixel.
@@ -70,12 +71,16 @@ struct Selection {
     std::shared_ptr<const PixelStory> story;  // of that pixel
 };
 
+struct Explained;  // runtime/explain/explain.h
+
 struct PlayerState {
     CameraState camera;
     TimeState time;
     PictureState picture;
     Selection selection;
     std::vector<std::string> panels;  // open ones, by name
+    // What the scene models and leaves out, of when it was asked for last; null: never.
+    std::shared_ptr<const std::vector<Explained>> explained;
     int files_written = 0;
     bool quit = false;
 };

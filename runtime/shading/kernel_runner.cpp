@@ -87,7 +87,8 @@ void KernelRunner::run_noting(Grid& grid) const {
                .out = take_outputs(bound.kernel(), grid.count(), arena),
                .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
                .record_sets = grid.record_sets,
-               .host = host},
+               .host = host,
+               .stop = frame_.stop},
               arena);
     start_accounts(grid);
 }
@@ -106,7 +107,8 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
                .out = out,
                .faults = faults_[grid.memory.number][fault_row(*grid.look, bound)],
                .record_sets = grid.record_sets,
-               .host = host},
+               .host = host,
+               .stop = frame_.stop},
               arena);
     return out;
 }

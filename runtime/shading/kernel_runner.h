@@ -7,6 +7,7 @@
 #include "rsl/model/globals.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/shading/grid.h"
+#include "runtime/shading/shading_frame.h"
 
 namespace kinora {
 
@@ -15,8 +16,8 @@ struct GridServices;
 class KernelRunner {
   public:
     // `services` answer the kernels' calls.
-    KernelRunner(const Scene& scene, const GridServices& services)
-        : scene_(scene), services_(services) {}
+    KernelRunner(const ShadingFrame& frame, const GridServices& services)
+        : frame_(frame), scene_(frame.scene), services_(services) {}
 
     // Forgets all faults.
     void begin_frame(size_t threads);
@@ -33,6 +34,7 @@ class KernelRunner {
     std::span<float*> run(const BoundKernel& bound, Grid& grid);
 
   private:
+    const ShadingFrame& frame_;
     const Scene& scene_;
     const GridServices& services_;
     std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]

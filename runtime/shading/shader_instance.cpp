@@ -249,6 +249,7 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
     compile.target = options.target;
     compile.dumps = options.dumps;
     compile.files = &diagnostics.files;
+    compile.own_lines = options.own_lines;
     std::optional<rsl::LoweredShader> lowered = rsl::lower(layers, lower, diagnostics);
     if (!lowered) return false;
     look.lowered = std::move(*lowered);
@@ -343,7 +344,7 @@ float SceneNumbers::number(size_t index) const {
 
 void SceneKernel::update(const FrameContext& context, const ShaderInstance& look) {
     SceneHost host(context.scene, look);
-    run_frame(SceneNumbers(context, look, inputs), host);
+    run_frame(SceneNumbers(context, look, inputs), host, {}, context.stop);
     host.printed().show();
     prints_asked = host.printed().asked();
     prints_shown = host.printed().shown();

@@ -23,7 +23,8 @@ struct Scene;
 // What frame-rate inputs are computed from.
 struct FrameContext {
     const Scene& scene;
-    dvec3 eye{0.0};  // in "current"
+    dvec3 eye{0.0};                          // in "current"
+    const std::atomic<int>* stop = nullptr;  // KernelCall::stop
 };
 
 // Where a frame-rate input's number comes from, resolved by key once.
@@ -124,6 +125,7 @@ struct ShaderInstanceOptions {
     std::vector<std::string> gathered;  // surfaces: outputs that some gather reads of what it hits
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
+    bool own_lines = false;  // jit::CompileOptions
 };
 
 // The shaders as compile_instance() lowers them, their parameters bound.

@@ -39,7 +39,7 @@ struct Shading::Objects {
 
     ShadingFrame frame;
     ThreadMemories threads;
-    KernelRunner kernels{frame.scene, services};
+    KernelRunner kernels{frame, services};
     LightRecords lights{frame, kernels};
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
@@ -70,8 +70,8 @@ Shading::~Shading() = default;
 namespace {
 
 // Brings all looks to the scene's time.
-void update_looks(const Scene& scene) {
-    FrameContext context{scene};
+void update_looks(const Scene& scene, const std::atomic<int>* stop) {
+    FrameContext context{.scene = scene, .stop = stop};
     for (const auto& look : scene.shader_instances) look->update(context);
 }
 
@@ -134,7 +134,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     objects_->gathers.begin_frame(threads.size());
     objects_->prints.begin_frame(threads.size());
     objects_->bakes.begin_frame(threads.size());
-    update_looks(frame.scene);
+    update_looks(frame.scene, frame.stop);
     objects_->lights.begin_frame();
     set_view(frame);
     set_media(frame);

@@ -47,6 +47,7 @@ struct RunInput {
     std::vector<ServiceFn> services;
     const RecordSet* record_sets = nullptr;
     void* grid = nullptr;
+    const std::atomic<int>* stop = nullptr;
 };
 
 inline RunResult run_kernel(const Kernel& kernel, const RunInput& input) {
@@ -81,7 +82,8 @@ inline RunResult run_kernel(const Kernel& kernel, const RunInput& input) {
                .faults = result.fault,
                .services = input.services,
                .record_sets = {input.record_sets, input.record_sets ? 1u : 0u},
-               .host = input.grid}
+               .host = input.grid,
+               .stop = input.stop}
         .run();
     for (float* row : out) {
         auto& bits = result.out.emplace_back(points);

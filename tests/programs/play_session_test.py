@@ -96,6 +96,28 @@ class Sessions(ProgramTest):
         broken["options"] = ["--quality=nosuch"]
         self.expect(render(self.write("bad.kinora", json.dumps(broken)), "-o", "null"), 2, "nosuch")
 
+    def test_a_comparison_is_kept(self):
+        """The left of the wipe is a picture of other settings, another shader and another time."""
+        pixels, session = self.save(SCENES / "walker.dae", "select_material wall-material\nparam Kd 0.1\nexposure 1\nseek 3\nkeep\n"
+                                    "undo\nexposure 0\nseek 9\nwipe 0.25\n")
+        shot = self.folder / "e.png"
+        self.expect(run("kinora-play", session, "--headless", "--screenshot", shot, "--threads", "2"), 0)
+        self.assertEqual(png.read(shot), pixels)
+        plain = self.rendered(session)  # kinora-render shows no comparison
+        self.assertEqual(pixels[:2], (64, 36))
+
+        def columns(picture, first, last):
+            return [row[3 * first:3 * last] for row in picture[2]]
+        self.assertEqual(columns(pixels, 16, 64), columns(plain, 16, 64))
+        self.assertNotEqual(columns(pixels, 0, 16), columns(plain, 0, 16))
+        script = self.write("f.txt", f"open {session}\nwait refined\nkeep\nscreenshot {shot}\n")  # no longer
+        self.expect(run("kinora-play", MATTE, "--headless", "--script", script, *SMALL), 0)
+        self.assertEqual(png.read(shot)[2], plain[2])
+        broken = json.loads(session.read_text())
+        broken["kept"]["picture"] = broken["kept"]["picture"][:400]
+        self.expect(run("kinora-play", self.write("bad.kinora", json.dumps(broken)), "--headless", "--screenshot", shot), 3,
+                    "kept.picture is no PNG")
+
     def test_it_is_opened_by_a_script(self):
         pixels, session = self.save(SCENES / "walker.dae", LOOK)
         shot = self.folder / "d.png"

@@ -72,6 +72,16 @@ class Play(ProgramTest):
         self.expect(play(MATTE, "--headless", "--screenshot", "/proc/none/a.png", *SMALL), 6, "cannot be written")
         self.expect(play(MATTE, "--camera", "nosuch", "--headless", "--screenshot", "a.png"), 2)
 
+    def test_it_explains_what_kinora_render_explains(self):
+        for scene in (SCENES / "walker.dae", SCENES / "attach.dae", SOURCE / "assets/gltf/bender.glb"):
+            with self.subTest(scene.name):
+                file = self.folder / "explained.json"
+                self.expect(self.script(scene, f"explain {file}\n", "--quality", "preview"), 0)
+                wanted = render(scene, "--explain=json", *SMALL, "--quality", "preview")
+                self.expect(wanted, 0)
+                self.assertEqual(json.loads(file.read_text()), json.loads(wanted.out))
+                self.assertIn("shaders", json.loads(file.read_text()))
+
     def test_a_shader_that_loops_for_ever_ends(self):
         shot = self.folder / "a.png"
         text = 'select_material bright\nedit\nset_text "surface s() { float x = 0; while (x < 1) x = x - 1; Ci = x; }"\n' \

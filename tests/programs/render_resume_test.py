@@ -89,13 +89,21 @@ class Resume(ProgramTest):
             self.assertGreater(len(self.pictures(folder)), 0)
 
     def test_a_tile_that_takes_minutes_does_not_hold_up_a_signal(self):
+        self.check_stopped(RAYS, "--size", "32x32", "--spp", "100000")
+
+    def test_nor_does_a_shader_that_loops_for_ever(self):
+        endless = self.write("endless.sl", "surface endless() { float k = 0; while (1) k += u; Ci = k; Oi = 1; }")
+        self.check_stopped(MATTE, "--size", "640x360", "--spp", "64", "--shader", f"*={endless}", running=2)
+
+    def check_stopped(self, scene, *words, running=0):
+        """It ends soon after a signal that comes after so many seconds, and leaves no file."""
         out = self.folder / "slow.png"
-        process = subprocess.Popen(
-            command("kinora-render", RAYS, "-o", out, "--size", "32x32", "--spp", "100000", "-q"))
+        process = subprocess.Popen(command("kinora-render", scene, "-o", out, *words, "-q"))
         deadline = time.monotonic() + 60
         while not self.catches(process.pid, signal.SIGTERM):
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.01)
+        time.sleep(running)
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(timeout=60), 143)
         self.assertEqual(list(self.folder.glob("*slow*")), [])

@@ -172,6 +172,7 @@ ShaderSwapper::ShaderSwapper(const Scene& scene, SceneDescription description,
     numbers_.animated.resize(numbers_.values.size(), false);
     options_.math = scene.options.math;
     options_.target = scene.options.target;
+    options_.own_lines = true;  // who edits may look at the code beside the text
     for (const OutputPlane& plane : outputs_) add_new_names(options_.aovs, {plane.parameter});
     for (const NodeDefinition& node : scene.description->nodes)
         if (!node.id.empty()) space_names_.push_back(node.id);

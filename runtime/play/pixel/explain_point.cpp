@@ -107,6 +107,8 @@ class Explanation {
         uint32_t material = scene_.surfaces[row].material;
         if (material != kNone) story_.material = scene_.description->materials[material].id;
         story_.shader = look_.shader().name;
+        story_.target = point_.launch.kernel.target;
+        story_.code = machine_runs(point_.launch.kernel, files_, story_.no_code);
         story_.Ci = color_of(point_.launch, rsl::Global::Ci, 0);
         story_.Oi = color_of(point_.launch, rsl::Global::Oi, 1);
         rsl::ReferenceInputs watched = inputs_;

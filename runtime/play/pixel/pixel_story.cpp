@@ -3,6 +3,7 @@
 
 #include "runtime/frame/frame.h"
 #include "runtime/play/pixel/explain_point.h"
+#include "runtime/play/pixel/ray_recorder.h"
 
 namespace kinora {
 
@@ -23,6 +24,7 @@ PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
     raytrace::Film film;
     scene.shading->stop_by(settings.stop);
     scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers, true);
+    RayRecorder shot;
     {
         PointRecorder recorder([&](RecordedPoint& point) {
             if (story.points.size() < kMostPoints)
@@ -31,6 +33,7 @@ PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
         story.color = raytrace::integrate_sample(scene.accel, scene.view, *scene.shading, film,
                                                  settings.integrator, scene.scratch, x, y, sample);
     }
+    shot.tell(scene, story);
     scene.shading->drop_frame(ignored);
     story.color = vec4(vec3(story.color) * float(settings.gain), story.color.w);
     return story;
@@ -45,6 +48,11 @@ const StoryVariable* find_variable(const PixelStory& story, std::string_view nam
         if (found) break;
     }
     return found;
+}
+
+std::string_view ray_text(StoryRay::Kind kind) {
+    constexpr std::string_view kNames[] = {"eye", "traced", "shadow"};
+    return kNames[size_t(kind)];
 }
 
 std::string_view agreement_text(Agreement agreement) {

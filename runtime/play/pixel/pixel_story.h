@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/programs/disassembly/disassembly.h"
 
 namespace kinora {
 
@@ -53,9 +54,21 @@ struct PointStory {
     Agreement agreement = Agreement::Unexplained;
     std::string why;  // where it does not agree; one sentence
     std::vector<StoryStep> steps;
-    bool cut = false;      // more steps than are kept
-    std::string nan_file;  // where the first NaN arose, ""  nowhere
+    bool cut = false;              // more steps than are kept
+    std::string target;            // "avx512"
+    std::vector<MachineRun> code;  // of its kernel, a run for each stretch of one line
+    std::string no_code;           // why there is none
+    std::string nan_file;          // where the first NaN arose, ""  nowhere
     int nan_line = 0, nan_column = 0;
+};
+
+// A ray that was shot for the sample: by the camera, a shader, or the tests whether a light is
+// seen.
+struct StoryRay {
+    enum class Kind : uint8_t { Eye, Traced, Shadow };
+    Kind kind;
+    dvec3 from, to;  // world
+    bool hit;        // a surface ends it; of Shadow: it blocks the light
 };
 
 struct PixelStory {
@@ -63,6 +76,8 @@ struct PixelStory {
     double frame = 0;
     vec4 color{0.0f};                // of the sample: linear, associated, without the imager
     std::vector<PointStory> points;  // that the camera's ray met, the nearest first
+    std::vector<StoryRay> rays;      // in the order they were shot
+    bool rays_cut = false;           // more than are kept
 };
 
 // Runs sample `sample` of the pixel at that time again, as render_frame() with these settings. The
@@ -79,6 +94,8 @@ std::string json_text(std::string_view text);
 // The variable after the last step at that line that changed it; null: none.
 const StoryVariable* find_variable(const PixelStory& story, std::string_view name, int line);
 
+// "eye", "traced", "shadow".
+std::string_view ray_text(StoryRay::Kind kind);
 std::string_view agreement_text(Agreement agreement);
 
 }  // namespace kinora

@@ -53,15 +53,28 @@ std::string step_text(const StoryStep& s) {
         list_text(s.changes, variable_text, ",\n     "));
 }
 
+std::string run_text(const MachineRun& run) {
+    return fmt::format("\n    {{\"file\": {}, \"line\": {}, \"code\": {}}}", json_text(run.file),
+                       run.line, list_text(run.instructions, json_text));
+}
+
+std::string ray_json(const StoryRay& ray) {
+    auto place = [](dvec3 p) { return fmt::format("[{}, {}, {}]", p.x, p.y, p.z); };
+    return fmt::format("\n  {{\"kind\": \"{}\", \"from\": {}, \"to\": {}, \"hit\": {}}}",
+                       ray_text(ray.kind), place(ray.from), place(ray.to), ray.hit);
+}
+
 std::string point_text(const PointStory& p) {
     return fmt::format(
         "\n  {{\"material\": {}, \"shader\": {}, \"agreement\": \"{}\", \"why\": {},\n"
         "   \"Ci\": {}, \"Oi\": {}, \"reference_Ci\": {}, \"allowed\": {},\n"
-        "   \"nan\": {{\"file\": {}, \"line\": {}, \"column\": {}}}, \"cut\": {}, \"steps\": {}}}",
+        "   \"nan\": {{\"file\": {}, \"line\": {}, \"column\": {}}}, \"cut\": {}, \"steps\": {},\n"
+        "   \"target\": \"{}\", \"no_code\": {}, \"code\": {}}}",
         json_text(p.material), json_text(p.shader), agreement_text(p.agreement), json_text(p.why),
         numbers_text(p.Ci), numbers_text(p.Oi), numbers_text(p.reference_Ci),
         numbers_text(p.allowed), json_text(p.nan_file), p.nan_line, p.nan_column, p.cut,
-        list_text(p.steps, step_text, ","));
+        list_text(p.steps, step_text, ","), p.target, json_text(p.no_code),
+        list_text(p.code, run_text, ","));
 }
 
 }  // namespace
@@ -70,9 +83,10 @@ std::string to_json(const PixelStory& story) {
     const vec4& c = story.color;
     return fmt::format(
         "{{\"pixel\": [{}, {}], \"sample\": {}, \"frame\": {}, \"color\": [{}, {}, {}, {}],\n"
-        " \"points\": {}}}\n",
+        " \"points\": {},\n \"rays\": {}, \"rays_cut\": {}}}\n",
         story.x, story.y, story.sample, story.frame, number_text(c.x), number_text(c.y),
-        number_text(c.z), number_text(c.w), list_text(story.points, point_text, ","));
+        number_text(c.z), number_text(c.w), list_text(story.points, point_text, ","),
+        list_text(story.rays, ray_json, ","), story.rays_cut);
 }
 
 }  // namespace kinora

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/images/image_io.h"
 #include "runtime/play/session/free_camera.h"
 #include "runtime/play/session/scene_edits.h"
 #include "runtime/scene/camera.h"
@@ -20,6 +21,13 @@ struct SessionCamera {
     std::optional<std::pair<std::string, dvec3>> follow;  // the node, and where it was at first
 };
 
+// A picture that others are compared with, at the left of the wipe: as it was shown, whatever made
+// it.
+struct KeptPicture {
+    Image8 image;
+    double frame = 0;
+};
+
 struct Session {
     std::string scene;
     std::vector<std::string> options;  // of kinora-render, a word each: "--spp=4"
@@ -30,6 +38,7 @@ struct Session {
     SceneEdits edits;
     // Of the player alone: open panels, and lines that set the rest.
     std::vector<std::string> panels, commands;
+    std::optional<KeptPicture> kept;
 };
 
 // In the file, paths are told from its folder. An error text, or "".

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/file_extension.h"
+#include "runtime/images/png_memory.h"
 #include "runtime/play/session/session.h"
 
 namespace kinora {
@@ -99,6 +100,13 @@ Json json_of(const SceneEdits& edits) {
     return json;
 }
 
+constexpr std::string_view kPngUrl = "data:image/png;base64,";  // RFC 2397
+
+Json json_of(const KeptPicture& kept) {
+    return {{"frame", kept.frame},
+            {"picture", std::string(kPngUrl) + base64(encode_png(kept.image))}};
+}
+
 // Members with their places, for messages: "camera.own.distance".
 class Reader {
   public:
@@ -145,10 +153,11 @@ class Reader {
         return readers;
     }
 
-  private:
     [[noreturn]] void fail(const std::string& why) const {
         throw std::runtime_error((place_.empty() ? "the file" : place_) + " " + why);
     }
+
+  private:
     const Json& json_;
     std::string place_;
 };
@@ -189,6 +198,20 @@ SceneEdits edits_of(const Reader& json) {
     return edits;
 }
 
+KeptPicture kept_picture(const Reader& json) {
+    KeptPicture kept;
+    kept.frame = json.member("frame").number(-1e12, 1e12);
+    const Reader picture = json.member("picture");
+    const std::string text = picture.text();
+    std::optional<Image8> image;
+    if (text.starts_with(kPngUrl))
+        if (auto bytes = from_base64(std::string_view(text).substr(kPngUrl.size())))
+            image = decode_png(*bytes);
+    if (!image) picture.fail(fmt::format("is no PNG behind '{}'", kPngUrl));
+    kept.image = std::move(*image);
+    return kept;
+}
+
 Session session_of(const Reader& json) {
     if (int version = int(json.member(kVersionName).number(0, 1e6)); version != kVersion)
         throw std::runtime_error(
@@ -204,6 +227,7 @@ Session session_of(const Reader& json) {
     session.edits = edits_of(json.member("edits"));
     session.panels = json.member("panels").texts();
     session.commands = json.member("commands").texts();
+    if (json.has("kept")) session.kept = kept_picture(json.member("kept"));
     return session;
 }
 
@@ -224,6 +248,7 @@ std::string session_text(const Session& session) {
               {"exposure", session.exposure},    {"camera", json_of(session.camera)},
               {"edits", json_of(session.edits)}, {"panels", session.panels},
               {"commands", session.commands}};
+    if (session.kept) json["kept"] = json_of(*session.kept);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "runtime/programs/common/exit_codes.h"
-#include "runtime/programs/shade/disassembly.h"
+#include "runtime/programs/disassembly/disassembly.h"
 #include "runtime/programs/shade/kernel.h"
 
 namespace kinora {

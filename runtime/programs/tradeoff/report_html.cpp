@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/images/png_memory.h"
 #include "runtime/programs/tradeoff/plot.h"
-#include "runtime/programs/tradeoff/png_memory.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
 
 namespace kinora {

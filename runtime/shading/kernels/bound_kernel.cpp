@@ -40,7 +40,8 @@ void BoundKernel::bind(jit::KernelPair kernels,
 }
 
 void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
-                            std::span<const jit::RecordSet> record_sets) {
+                            std::span<const jit::RecordSet> record_sets,
+                            const std::atomic<int>* stop) {
     if (!pair.frame) return;
     const jit::Kernel& kernel = *pair.frame;
     for (size_t i = 0; i < in_.size(); ++i) std::fill_n(in_[i], jit::padded(1), numbers.number(i));
@@ -54,7 +55,8 @@ void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
                     .faults = frame_faults,
                     .services = frame_services,
                     .record_sets = record_sets,
-                    .host = &host}
+                    .host = &host,
+                    .stop = stop}
         .run();
     arena_.release(mark);
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out_[i][0];
@@ -68,6 +70,10 @@ void probe_kernels(KernelProbe* probe) {
 }
 
 void BoundKernel::run(const PointLaunch& launch, Arena& arena) const {
+    if (launch.stop && launch.stop->load(std::memory_order_relaxed) != 0) {
+        for (float* row : launch.out) std::fill_n(row + launch.first, launch.count, 0.0f);
+        return;
+    }
     std::span<const float*> in = arena.allocate_span<const float*>(columns.size());
     for (size_t i = 0; i < in.size(); ++i) in[i] = launch.columns[columns[i]] + launch.first;
     std::span<float*> out = arena.allocate_span<float*>(launch.out.size());
@@ -82,7 +88,8 @@ void BoundKernel::run(const PointLaunch& launch, Arena& arena) const {
                                .faults = launch.faults,
                                .services = services,
                                .record_sets = launch.record_sets,
-                               .host = &launch.host};
+                               .host = &launch.host,
+                               .stop = launch.stop};
     if (g_probe) [[unlikely]]
         g_probe->run(call);
     else

@@ -2,6 +2,7 @@
 // are bound, ready to run on points from any source.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <span>
 #include <vector>
@@ -31,6 +32,7 @@ struct PointLaunch {
     std::span<uint8_t> faults;        // a byte a site
     std::span<const jit::RecordSet> record_sets = {};
     KernelHost& host;
+    const std::atomic<int>* stop = nullptr;  // KernelCall::stop
 };
 
 // A kernel pair with its frame block.
@@ -41,7 +43,8 @@ class BoundKernel {
               const std::function<uint16_t(const rsl::KernelKey&)>& column_of);
     // Runs the frame kernel and fills the frame block. No allocation.
     void run_frame(const FrameNumbers& numbers, KernelHost& host,
-                   std::span<const jit::RecordSet> record_sets = {});
+                   std::span<const jit::RecordSet> record_sets = {},
+                   const std::atomic<int>* stop = nullptr);
     // Runs the point kernel; its scratch memory is taken from `arena` and stays taken, as does what
     // services take there.
     void run(const PointLaunch& launch, Arena& arena) const;

@@ -56,6 +56,22 @@ TEST(Numbers, AreShort) {
     EXPECT_EQ(short_number(29.97), "29.97");
 }
 
+// Names of nodes and materials come in the letters of their writers.
+TEST(Fonts, HaveLettersBeyondLatin) {
+    ImGui::CreateContext();
+    const Fonts fonts = load_fonts(1);
+    unsigned char* texels;
+    int width = 0, height = 0;
+    ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
+    for (ImWchar letter : {u'A', u'\u00e9', u'\u0142', u'\u0436', u'\u03bb', u'\u2192'})
+        for (const ImFont* font : {fonts.text, fonts.mono}) {
+            EXPECT_TRUE(!fonts.found || font->FindGlyphNoFallback(letter))
+                << std::hex << unsigned(letter);
+        }
+    ImGui::DestroyContext();
+    if (!fonts.found) GTEST_SKIP() << "DejaVu is not installed";
+}
+
 class Drawn : public testing::Test {
   protected:
     Drawn()

@@ -1,10 +1,12 @@
 // tests/runtime/play/pacer_test.cpp: sizes by times that were recorded or made up.
-#include "runtime/play/pacer.h"
+#include "runtime/play/pace/pacer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
+
+#include "runtime/play/pace/patience.h"
 
 namespace kinora {
 namespace {
@@ -106,6 +108,19 @@ TEST(Pacer, StopsAtItsSmallestSize) {
     Pacer pacer = pacer_at_target();
     EXPECT_EQ(scales(pacer, std::vector<double>(50, 1e5)).back(),
               Pacer::scale_of(Pacer::kSteps - 1));
+}
+
+// An orbit that never rests gets a picture of a scene that takes 3 s at its lowest resolution, and
+// a shader that loops for ever holds no picture for longer than 7 s.
+TEST(Patience, DoublesUntilAPictureIsWhole) {
+    EXPECT_DOUBLE_EQ(patience_ms(30, 0), 50);
+    EXPECT_DOUBLE_EQ(patience_ms(30, 1), 100);
+    size_t ended = 0;
+    while (patience_ms(30, ended) < 3000) ++ended;
+    EXPECT_EQ(ended, 6u);
+    EXPECT_LT(patience_ms(30, 1000), 7000);
+    EXPECT_EQ(patience_ms(30, 1000), patience_ms(30, 100));
+    EXPECT_GT(patience_ms(0, 0), 0);
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ TEST(Still, AMoveLetsTheRefinementGo) {
     for (; moves < 3 || (cancelled() < 3 && moves < 20); ++moves) {
         ASSERT_TRUE(player.wait_picture(kLong));
         uint64_t serial = player.picture()->serial, frames = player.frames_rendered();
-        while (player.frames_rendered() < frames + 1) usleep(1000);  // it refines
+        // It refines, perhaps since before it was asked.
+        for (int k = 0; k < 1000 && player.frames_rendered() < frames + 1; ++k) usleep(1000);
         ASSERT_TRUE(player.run_line("orbit 5 0").done);
         ASSERT_TRUE(player.wait_picture(kLong));
         EXPECT_GT(player.picture()->serial, serial);
@@ -122,6 +123,28 @@ TEST(Still, APlayerThatIsTooSlowShowsPictures) {
     EXPECT_GE(player.picture()->serial, first + 3);
     for (const StageTimes& times : player.stage_times())
         EXPECT_FALSE(times.cancelled && times.at > after);
+}
+
+// Half a second goes by between two pictures: twelve frames are dropped, or none where that is
+// chosen.
+TEST(Still, EveryFrameIsShownWhereNoneIsToBeDropped) {
+    for (bool all : {false, true}) {
+        Played played(small_request(scene_path("scenes/walker.dae")), {true, false, nullptr});
+        Player& player = played.player;
+        EXPECT_EQ(played.script(all ? "first; every_frame; play on" : "first; play on"), "");
+        ASSERT_TRUE(player.wait_picture(kLong));
+        for (int k = 0; k < 4; ++k) {
+            const double before = player.state().time.frame;
+            player.advance(0.5);
+            ASSERT_TRUE(player.wait_picture(kLong));
+            EXPECT_EQ(player.picture()->frame, player.state().time.frame);
+            const double moved = player.state().time.frame - before;
+            if (all)
+                EXPECT_EQ(moved, 1);
+            else
+                EXPECT_GT(std::abs(moved), 1);
+        }
+    }
 }
 
 TEST(Still, AMissingSceneFailsWithAFinding) {

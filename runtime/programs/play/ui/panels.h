@@ -66,6 +66,9 @@ class LibraryPanel {
     std::vector<Texture> textures_;
 };
 
+// kinora-render --explain, section by section.
+void draw_explained(Context& context);
+
 void draw_findings(Context& context);
 // Everything known of the pixel that was clicked.
 void draw_pixel(Context& context);

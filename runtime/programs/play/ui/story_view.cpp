@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <set>
+
 #include "runtime/play/pixel/pixel_story.h"
 #include "runtime/programs/play/ui/panels.h"
 
@@ -52,6 +54,37 @@ void changes(const Theme& theme, const StoryStep& step) {
     }
 }
 
+// What the compiler made of a line, where it made anything in the kernel of points: lines whose
+// values are the same for all are computed once a frame.
+void machine_code(const Theme& theme, const PointStory& point, const StoryStep& step) {
+    ImGui::PushFont(theme.fonts.mono);
+    for (const MachineRun& run : point.code) {
+        if (run.line != step.line || run.file != step.file) continue;
+        for (const std::string& instruction : run.instructions) {
+            ImGui::Dummy({theme.px(44), 0});
+            ImGui::SameLine(theme.px(52));
+            ImGui::PushStyleColor(ImGuiCol_Text, theme.dim);
+            ImGui::TextUnformatted(instruction.c_str());
+            ImGui::PopStyleColor();
+        }
+    }
+    ImGui::PopFont();
+}
+
+void ray_counts(const Theme& theme, const PixelStory& story) {
+    size_t eye = 0, traced = 0, shadow = 0, blocked = 0;
+    for (const StoryRay& ray : story.rays) {
+        eye += ray.kind == StoryRay::Kind::Eye;
+        traced += ray.kind == StoryRay::Kind::Traced;
+        shadow += ray.kind == StoryRay::Kind::Shadow;
+        blocked += ray.kind == StoryRay::Kind::Shadow && ray.hit;
+    }
+    ImGui::Dummy({0, theme.px(4)});
+    ImGui::TextDisabled(
+        "%zu rays of the eye, %zu traced, %zu to lights, of which %zu are blocked%s", eye, traced,
+        shadow, blocked, story.rays_cut ? "; and more" : "");
+}
+
 void verdict(const Theme& theme, const PointStory& point) {
     const bool good = point.agreement == Agreement::Agrees;
     const std::string text =
@@ -71,6 +104,13 @@ void verdict(const Theme& theme, const PointStory& point) {
 
 void draw_story(Context& context, const PixelStory& story) {
     const Theme& theme = context.theme;
+    ray_counts(theme, story);
+    if (toggle_button(theme, "Rays", context.state().picture.rays, nullptr)) context.run("rays");
+    command_tooltip("rays");
+    ImGui::SameLine();
+    const bool with_code = context.open("code");
+    if (toggle_button(theme, "Machine code", with_code, nullptr)) context.run("show_code");
+    command_tooltip("show_code");
     int id = 0;
     for (const PointStory& point : story.points) {
         ImGui::PushID(id++);
@@ -78,8 +118,12 @@ void draw_story(Context& context, const PixelStory& story) {
         ImGui::Separator();
         ImGui::Text("%s on %s", point.shader.c_str(), point.material.c_str());
         verdict(theme, point);
+        if (with_code && !point.no_code.empty()) ImGui::TextDisabled("%s", point.no_code.c_str());
+        std::set<std::pair<std::string, int>> listed;  // a loop's lines come again
         for (const StoryStep& step : point.steps) {
             title(theme, step);
+            if (with_code && listed.insert({step.file, step.line}).second)
+                machine_code(theme, point, step);
             changes(theme, step);
         }
         if (point.cut) ImGui::TextDisabled("More statements ran than are kept.");

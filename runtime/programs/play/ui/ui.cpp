@@ -20,10 +20,11 @@ constexpr PanelRow kPanels[] = {
     {"scene", "Scene", Area::Left, true},          {"parameters", "Parameters", Area::Left, true},
     {"lights", "Lights", Area::Left, false},       {"editor", "Shader", Area::Right, true},
     {"pixel", "Pixel", Area::Right, true},         {"library", "Library", Area::Right, false},
-    {"findings", "Findings", Area::Bottom, false}, {"times", "Frame times", Area::Bottom, false},
+    {"explained", "Explained", Area::Left, false}, {"findings", "Findings", Area::Bottom, false},
+    {"times", "Frame times", Area::Bottom, false},
 };
 // Open panels without a place in an area.
-constexpr const char* kOverlays[] = {"hud", "keys", "commands"};
+constexpr const char* kOverlays[] = {"hud", "code", "keys", "commands"};
 
 bool known(const std::string& name) {
     return std::any_of(std::begin(kPanels), std::end(kPanels),
@@ -104,6 +105,7 @@ void Ui::draw_panel(const char* name) {
     if (panel == "scene") nodes_.draw(context_);
     if (panel == "parameters") draw_parameters(context_);
     if (panel == "lights") draw_lights(context_);
+    if (panel == "explained") draw_explained(context_);
     if (panel == "library") library_.draw(context_);
     if (panel == "editor") editor_.draw(context_);
     if (panel == "pixel") draw_pixel(context_);

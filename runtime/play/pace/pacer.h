@@ -1,5 +1,5 @@
-// runtime/play/pacer.h: how many pixels a frame may have so that playback holds its rate. Times in,
-// sizes out; it reads no clock.
+// runtime/play/pace/pacer.h: how many pixels a frame may have so that playback holds its rate.
+// Times in, sizes out; it reads no clock.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// runtime/play/pacer.cpp: fewer pixels at once where frames are late, more after a calm while.
+// runtime/play/pace/pacer.cpp: fewer pixels at once where frames are late, more after a calm while.
 //
 // One late frame changes nothing: the median of three decides, and that of fifteen where the time
 // is nearly met. Between the size that is too slow and the one that has room lies more than a step,
 // so jitter has no pair of sizes to swing between. Where a larger picture turned out too slow, the
 // next one is tried only after twice as many calm frames.
-#include "runtime/play/pacer.h"
+#include "runtime/play/pace/pacer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-// runtime/programs/shade/disassembly.cpp: machine code of a kernel beside the shader's lines, by
-// Capstone.
-#include "runtime/programs/shade/disassembly.h"
+// runtime/programs/disassembly/disassembly.cpp: machine code of a kernel beside the shader's lines,
+// by Capstone.
+#include "runtime/programs/disassembly/disassembly.h"
 
 #include <capstone/capstone.h>
 #include <dlfcn.h>
@@ -75,13 +75,14 @@ class Disassembler {
     Disassembler(const Disassembler&) = delete;
     Disassembler& operator=(const Disassembler&) = delete;
 
-    void append(std::span<const std::byte> code, size_t offset, std::string& text) const {
+    void append(std::span<const std::byte> code, size_t offset,
+                std::vector<std::string>& lines) const {
         cs_insn* list = nullptr;
         size_t count = capstone().disassemble(
             handle_, reinterpret_cast<const uint8_t*>(code.data()), code.size(), offset, 0, &list);
         for (size_t k = 0; k < count; ++k)
-            fmt::format_to(std::back_inserter(text), "  {:04x}  {} {}\n", list[k].address,
-                           list[k].mnemonic, list[k].op_str);
+            lines.push_back(
+                fmt::format("{:04x}  {} {}", list[k].address, list[k].mnemonic, list[k].op_str));
         if (count > 0) capstone().free(list, count);
     }
     bool is_open() const { return open_; }
@@ -96,35 +97,60 @@ std::string_view trimmed(std::string_view line) {
     return begin == std::string_view::npos ? "" : line.substr(begin);
 }
 
-std::string heading(const Location& where, const SourceFiles& files) {
-    if (where.file == kNoFile || where.file >= files.count()) return "; no line\n";
-    int line = files.line_column(where.file, where.begin).line;
-    return fmt::format("; {}:{}: {}\n", files.name(where.file), line,
-                       trimmed(files.line_text(where.file, line)));
+MachineRun run_at(const Location& where, const SourceFiles& files) {
+    MachineRun run;
+    if (where.file == kNoFile || where.file >= files.count()) return run;
+    run.file = files.name(where.file);
+    run.line = files.line_column(where.file, where.begin).line;
+    run.source = std::string(trimmed(files.line_text(where.file, run.line)));
+    return run;
+}
+
+const Machine* machine_of(const jit::Kernel& kernel) {
+    for (const Machine& row : kMachines)
+        if (row.target == kernel.target) return kernel.lines.empty() ? nullptr : &row;
+    return nullptr;
 }
 
 }  // namespace
 
-std::string disassembly(const jit::Kernel& kernel, const SourceFiles& files, std::string& error) {
-    const Machine* machine = nullptr;
-    for (const Machine& row : kMachines)
-        if (row.target == kernel.target) machine = &row;
-    if (machine == nullptr || kernel.lines.empty()) return "";
+std::vector<MachineRun> machine_runs(const jit::Kernel& kernel, const SourceFiles& files,
+                                     std::string& error) {
+    const Machine* machine = machine_of(kernel);
+    if (machine == nullptr) return {};
     error = capstone().error;
-    if (!error.empty()) return "";
+    if (!error.empty()) return {};
     Disassembler disassembler(*machine);
-    if (!disassembler.is_open()) return "";
-    std::string text, last;
+    if (!disassembler.is_open()) return {};
+    std::vector<MachineRun> runs;
     size_t at = 0;
     Location where;
     for (const jit::CodeLine& next : kernel.lines) {
-        std::string title = heading(where, files);
-        if (next.offset > at && title != last) text += last = title;
-        disassembler.append(kernel.machine_code.subspan(at, next.offset - at), at, text);
+        if (next.offset > at) {
+            MachineRun run = run_at(where, files);
+            if (runs.empty() || runs.back().file != run.file || runs.back().line != run.line)
+                runs.push_back(std::move(run));
+            disassembler.append(kernel.machine_code.subspan(at, next.offset - at), at,
+                                runs.back().instructions);
+        }
         at = next.offset;
         where = next.where;
     }
-    return text + fmt::format("; {} bytes of constants\n", kernel.machine_code.size() - at);
+    return runs;
+}
+
+std::string disassembly(const jit::Kernel& kernel, const SourceFiles& files, std::string& error) {
+    const std::vector<MachineRun> runs = machine_runs(kernel, files, error);
+    if (runs.empty()) return "";
+    std::string text;
+    for (const MachineRun& run : runs) {
+        text += run.file.empty() ? "; no line\n"
+                                 : fmt::format("; {}:{}: {}\n", run.file, run.line, run.source);
+        for (const std::string& instruction : run.instructions)
+            text += fmt::format("  {}\n", instruction);
+    }
+    return text + fmt::format("; {} bytes of constants\n",
+                              kernel.machine_code.size() - kernel.lines.back().offset);
 }
 
 }  // namespace kinora

@@ -1,0 +1,60 @@
+// runtime/play/pixel/ray_recorder.cpp: packets kept, and traced again.
+#include "runtime/play/pixel/ray_recorder.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr size_t kMostPackets = 4096, kMostRays = 10'000;
+
+StoryRay::Kind kind_of(uint32_t mask, bool any) {
+    if (mask & raytrace::kMaskCamera) return StoryRay::Kind::Eye;
+    // What an opaque surface does not block is looked for among the others.
+    return any || mask == raytrace::kMaskNotOpaque ? StoryRay::Kind::Shadow
+                                                   : StoryRay::Kind::Traced;
+}
+
+bool has_place(dvec3 v) {
+    return std::isfinite(v.x + v.y + v.z);
+}
+
+}  // namespace
+
+void RayRecorder::record(const raytrace::RayPacket16& rays, bool any) {
+    // Others may render: thumbnails, say. One more than is kept says that there were more.
+    if (std::this_thread::get_id() == thread_ && packets_.size() <= kMostPackets)
+        packets_.emplace_back(rays, any);
+}
+
+void RayRecorder::tell(const Scene& scene, PixelStory& story) {
+    stop();
+    story.rays_cut = packets_.size() > kMostPackets;
+    for (const auto& [rays, any] : packets_) {
+        raytrace::HitPacket16 hits;
+        raytrace::TraceCounters ignored;
+        const uint32_t met = scene.accel.intersect16(rays, hits, ignored);
+        for (uint32_t left = rays.active & 0xffffu; left; left &= left - 1) {
+            const int k = std::countr_zero(left);
+            const bool hit = met >> k & 1;
+            const dvec3 org(rays.org_x[k], rays.org_y[k], rays.org_z[k]);
+            const dvec3 dir(rays.dir_x[k], rays.dir_y[k], rays.dir_z[k]);
+            const double far =
+                scene.size /
+                std::max(std::sqrt(dir.x * dir.x + dir.y * dir.y + dir.z * dir.z), 1e-30);
+            const double t = hit ? double(hits.t[k]) : std::min(double(rays.tfar[k]), far);
+            const dvec3 to = org + t * dir;
+            if (!has_place(org) || !has_place(to) || t < 0) continue;
+            if (story.rays.size() == kMostRays) return void(story.rays_cut = true);
+            story.rays.push_back(
+                {kind_of(rays.mask[k], any), scene.origin + org, scene.origin + to, hit});
+        }
+    }
+}
+
+}  // namespace kinora

@@ -1,0 +1,60 @@
+// runtime/play/view_order.cpp: a scene brought to the time and the camera of an order.
+#include "runtime/play/view_order.h"
+
+#include <cmath>
+#include <tuple>
+
+#include "runtime/play/session/session.h"
+#include "runtime/play/shown_scene.h"
+#include "runtime/scene/camera.h"
+#include "runtime/scene/transforms.h"
+#include "runtime/scene/values.h"
+
+namespace kinora {
+
+bool ViewOrder::same_picture(const ViewOrder& o) const {
+    auto camera_key = [](const FreeCamera& c) {
+        return std::tuple(c.pivot, c.distance, c.axes, c.parallel, c.half_height);
+    };
+    bool same_camera =
+        camera.has_value() == o.camera.has_value() &&
+        (camera ? camera_key(*camera) == camera_key(*o.camera) : camera_index == o.camera_index);
+    return same_camera && follow == o.follow && frame == o.frame && width == o.width &&
+           height == o.height && exposure == o.exposure && only_light == o.only_light;
+}
+
+std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {
+    Scene& scene = *shown.scene;
+    evaluate(scene, seconds_of(shown.rate, order.frame));
+    update_transforms(scene);
+    if (order.camera_index < scene.cameras.size()) scene.camera = order.camera_index;
+    if (raytrace::is_error(set_view(scene, order.width, order.height))) return std::nullopt;
+    return scene.view;
+}
+
+std::optional<dvec3> place_of(ShownScene& shown, const std::string& node, double frame) {
+    return place_at(*shown.scene, node, seconds_of(shown.rate, frame));
+}
+
+double time_of(const ShownScene& shown, const ViewOrder& order) {
+    return seconds_of(shown.rate, order.frame);
+}
+
+FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, PlacedCamera& placed) {
+    FrameSettings settings = shown.settings;
+    settings.width = order.width;
+    settings.height = order.height;
+    settings.gain *= std::exp2(order.exposure);
+    if (order.only_light < shown.scene->lights.size())
+        settings.insight.only_light = order.only_light;
+    settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
+    if (order.camera) {
+        placed = placed_camera(*shown.scene, *order.camera, order.follow, time_of(shown, order));
+        settings.camera = &placed;
+    } else if (order.camera_index < shown.scene->cameras.size()) {
+        shown.scene->camera = order.camera_index;
+    }
+    return settings;
+}
+
+}  // namespace kinora
