@@ -92,23 +92,6 @@ std::vector<std::string> ends_of_folder(const std::string& path) {
     return ends;
 }
 
-std::vector<std::string> places(std::string_view own, const std::string& folder,
-                                const std::string& path, const AllowedPaths& allowed) {
-    std::vector<std::string> list{std::string(own)};
-    auto add = [&](const std::string& candidate) {
-        if (std::find(list.begin(), list.end(), candidate) == list.end()) list.push_back(candidate);
-    };
-    auto normal = [](const std::string& below) {
-        return fs::path(below).lexically_normal().string();
-    };
-    for (std::string_view below : kFolders) add(normal(folder + std::string(below)));
-    for (const char* above : {"", "../", "../../"})
-        for (const std::string& end : ends_of_folder(path))
-            if (std::string below = normal(folder + above + end); allowed.contains(below))
-                add(written_folder(below));
-    return list;
-}
-
 }  // namespace
 
 void PictureSearch::list(const std::string& folder, Images& images) {
@@ -154,6 +137,30 @@ std::string PictureSearch::find_in(const std::string& folder, const std::string&
     return like == images->by_stem.end() ? "" : folder + like->second.name;
 }
 
+const std::string& PictureSearch::written(const std::string& folder) {
+    auto [at, fresh] = written_.try_emplace(folder);
+    if (fresh) at->second = written_folder(folder);
+    return at->second;
+}
+
+std::vector<std::string> PictureSearch::places(const std::string& own, const std::string& folder,
+                                               const std::string& path,
+                                               const AllowedPaths& allowed) {
+    std::vector<std::string> list{own};
+    auto add = [&](const std::string& candidate) {
+        if (std::find(list.begin(), list.end(), candidate) == list.end()) list.push_back(candidate);
+    };
+    auto normal = [](const std::string& below) {
+        return fs::path(below).lexically_normal().string();
+    };
+    for (std::string_view below : kFolders) add(normal(folder + std::string(below)));
+    for (const char* above : {"", "../", "../../"})
+        for (const std::string& end : ends_of_folder(path))
+            if (std::string below = normal(folder + above + end); allowed.contains(below))
+                add(written(below));
+    return list;
+}
+
 FoundPicture PictureSearch::find(const std::string& path, const std::string& folder,
                                  const AllowedPaths& allowed) {
     bool inside = allowed.contains(path), there = is_regular_file(path);
@@ -162,8 +169,7 @@ FoundPicture PictureSearch::find(const std::string& path, const std::string& fol
     std::string_view base = std::string_view(slashed).substr(slashed.find_last_of('/') + 1);
     std::string name = lower(utf8_or_latin1(base));
     // A folder that may not be read is not listed either.
-    std::string own =
-        inside ? written_folder(slashed.substr(0, slashed.size() - base.size())) : folder;
+    std::string own = inside ? written(slashed.substr(0, slashed.size() - base.size())) : folder;
     for (bool by_stem : {false, true})
         for (const std::string& candidate : places(own, folder, slashed, allowed)) {
             if (name.empty() || !allowed.contains(candidate)) continue;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "runtime/base/allowed_paths.h"
 
@@ -52,7 +53,13 @@ class PictureSearch {
     const Images* images_of(const std::string& folder);
     std::string find_in(const std::string& folder, const std::string& name, bool by_stem);
 
+    const std::string& written(const std::string& folder);  // in the case that the disk has
+    // Where a picture of this path may lie, the likeliest first.
+    std::vector<std::string> places(const std::string& own, const std::string& folder,
+                                    const std::string& path, const AllowedPaths& allowed);
+
     std::unordered_map<std::string, Images> folders_;
+    std::unordered_map<std::string, std::string> written_;
     size_t listed_ = 0;  // files of all folders
 };
 
