@@ -128,11 +128,11 @@ def folder_of(path, folders):
     return max(fits, key=len, default="")
 
 
-def source_files():
+def source_files(endings=(".h", ".cpp", ".def")):
     for top in SOURCE_FOLDERS:
         for folder, _, names in os.walk(ROOT / top):
             for name in sorted(names):
-                if name.endswith((".h", ".cpp", ".def")):
+                if name.endswith(endings):
                     yield (Path(folder) / name).relative_to(ROOT).as_posix()
 
 
@@ -208,7 +208,7 @@ def test_cases(rules):
 
 def crowded_folders():
     counts = {}
-    for path in source_files():
+    for path in source_files((".h", ".cpp", ".def", ".py")):
         folder = os.path.dirname(path)
         counts[folder] = counts.get(folder, 0) + 1
     return [f"{folder}: {count}" for folder, count in sorted(counts.items()) if count > MOST_FILES]

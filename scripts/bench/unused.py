@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Measures what content that a picture does not need costs in a frame: a row for each kind that
-tests/programs/unused_content_test.py adds to walker.dae. Its time is quoted; the test counts the work.
+tests/programs/render/unused_content_test.py adds to walker.dae. Its time is quoted; the test counts the work.
 
     scripts/bench/unused.py [--pairs 200] [--page] [WORD...]
 
@@ -20,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 os.environ.setdefault("KINORA_SOURCE_DIR", str(ROOT))
-sys.path.insert(0, str(ROOT / "tests/programs"))
+sys.path[:0] = [str(ROOT / "tests/programs"), str(ROOT / "tests/programs/render")]
 import unused_content_test as content  # noqa: E402
 from programs import render  # noqa: E402
 

@@ -1,0 +1,332 @@
+#!/usr/bin/env python3
+"""tests/programs/play/play_window_test.py: kinora-play in a window, with real keys and a real mouse."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import display as displays
+from programs import BIN, MATTE, SCENES, SOURCE
+
+PROGRAM = BIN / "kinora-play"
+
+
+def changed(before, after, box, width):
+    """How many pixels of a box differ."""
+    x0, y0, x1, y1 = box
+    count = 0
+    for y in range(y0, y1):
+        a, b = before[3 * (y * width + x0):3 * (y * width + x1)], after[3 * (y * width + x0):3 * (y * width + x1)]
+        if a != b:
+            count += sum(a[i:i + 3] != b[i:i + 3] for i in range(0, len(a), 3))
+    return count
+
+
+PICTURE = (232, 24, 888, 700)  # of a window of 1280 x 800 with its first layout
+TIMELINE = (232, 704, 888, 775)
+
+
+class WindowTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.display = displays.Display(1280, 800)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.display.close()
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="kinora_window_"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        shutil.rmtree(self.display.folder / "config", ignore_errors=True)
+
+    def open(self, scene, *words):
+        self.record = self.folder / "session.txt"
+        window = displays.Window(self.display, PROGRAM, scene, "--record", self.record, *words)
+        self.addCleanup(window.close)
+        window.appear()
+        return window
+
+    def words(self, window):
+        """The commands of the session, as recorded: the window is closed."""
+        window.key("ctrl+q")
+        self.assertEqual(window.process.wait(20), 0, window.process.stderr.read())
+        return self.record.read_text()
+
+    def eventually(self, condition, what, seconds=20):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if condition():
+                return
+            time.sleep(0.1)
+        self.fail(what)
+
+    def command(self, window, line):
+        """A line in the palette; it is done when this returns."""
+        opened = len(re.findall("^commands$", self.record.read_text(), re.M))
+        window.key("ctrl+p")
+        window.recorded(self.record, "^commands$", opened + 1)
+        window.wait_still(10, 0.3)  # laid out, with the caret in it
+        window.type(line)
+        window.key("Return")
+        window.recorded(self.record, "^panel commands$", opened + 1)
+
+    def drawn(self, box, seconds=30):
+        """Until something is in the picture's box beside the empty stage."""
+        def some():
+            rgb = self.display.rgb()
+            x0, y0, x1, y1 = box
+            colors = {rgb[3 * (y * 1280 + x):3 * (y * 1280 + x) + 3] for y in range(y0, y1, 16) for x in range(x0, x1, 16)}
+            return len(colors) > 12
+        self.eventually(some, "no picture", seconds)
+
+    def test_mouse_and_keys_become_commands(self):
+        window = self.open(SCENES / "tintoy.dae")
+        self.drawn(PICTURE)
+        window.drag(500, 300, 560, 330)
+        window.drag(500, 300, 540, 300, button=2)
+        window.click(560, 360)
+        self.display.xdotool("mousemove", 560, 360, "click", 4)
+        window.key("Right", "Right", "f", "bracketright")
+        window.drag(300, 755, 600, 755)
+        window.key("space")
+        window.recorded(self.record, "^play$")
+        window.key("space")
+        window.recorded(self.record, "^play$", 2)
+        text = self.words(window)
+        for pattern in (r"^orbit -?\d", r"^pan -?0?\.?\d", r"^click \d+ \d+$", r"^dolly 1\.12", r"^next$", r"^frame_all$",
+                        r"^brighter$", r"^seek \d+$", r"^play$"):
+            self.assertRegex(text, re.compile(pattern, re.M))
+        self.assertEqual(len(re.findall(r"^next$", text, re.M)), 2)
+        self.assertEqual(len(re.findall(r"^play$", text, re.M)), 2)
+        orbits = [tuple(map(float, m)) for m in re.findall(r"^orbit (\S+) (\S+)", text, re.M)]
+        self.assertAlmostEqual(sum(right for right, _ in orbits), -0.4 * 60, delta=0.01)
+        self.assertAlmostEqual(sum(up for _, up in orbits), 0.4 * 30, delta=0.01)
+
+    def test_help_and_palette_find_every_command(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        before = self.display.rgb()
+        window.key("h")
+        self.eventually(lambda: changed(before, self.display.rgb(), PICTURE, 1280) > 100000, "no cheat sheet")
+        window.key("h")
+        self.command(window, "seek 7")
+        self.command(window, "false col")
+        text = self.words(window)
+        self.assertRegex(text, re.compile(r"^seek 7$", re.M))
+        self.assertRegex(text, re.compile(r"^false_color$", re.M))
+        self.assertEqual(text.count("\nkeys\n"), 2, text)
+
+    def test_what_is_closed_stays_closed(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        window.key("ctrl+shift+3", "ctrl+shift+4")  # shader and pixel: the right area goes
+        window.recorded(self.record, "^show_pixel$")
+        self.words(window)
+        conf = (self.display.folder / "config/kinora/play.conf").read_text()
+        self.assertNotRegex(conf, r"panels.*\b(editor|pixel)\b")
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        text = self.words(window)
+        self.assertNotRegex(text, r"show_editor|panel editor")
+
+    def test_a_splitter_is_dragged(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        # From afar, so that one turn of the loop may see the way there and the press.
+        self.display.xdotool("mousemove", 700, 300)
+        window.wait_still(10, 0.3)
+        for words in (("mousemove", 230, 400, "mousedown", 1), ("mousemove", 280, 400), ("mousemove", 330, 400),
+                      ("mouseup", 1)):
+            self.display.xdotool(*words)
+            window.wait_still(10, 0.3)
+        self.words(window)  # what it does comes before the window's end
+        conf = (self.display.folder / "config/kinora/play.conf").read_text()
+        self.assertRegex(conf, r"left 3(2|3)\d")
+
+    def test_a_small_window_is_the_picture(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        self.display.xdotool("windowsize", window.id, 320, 240)
+        window.wait_still(20, 1)
+        window.drag(30, 100, 90, 100)  # where the tree of nodes was, and where the editor
+        window.recorded(self.record, "^orbit ")
+        window.drag(230, 100, 290, 100)
+        text = self.words(window)
+        turned = sum(float(right) for right in re.findall(r"^orbit (\S+) ", text, re.M))
+        self.assertAlmostEqual(turned, -0.4 * 120, delta=0.01)
+
+    def test_no_opengl_is_mapped(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        maps = Path(f"/proc/{window.process.pid}/maps").read_text()
+        self.assertNotRegex(maps, r"libGL|libLLVM|libEGL\.|swrast")
+        self.assertIn("libSDL2", maps)
+
+    def test_at_rest_it_takes_no_time(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+
+        def ticks():
+            fields = Path(f"/proc/{window.process.pid}/stat").read_text().rsplit(") ", 1)[1].split()
+            return int(fields[11]) + int(fields[12])
+
+        def rests():
+            before = ticks()
+            time.sleep(2)
+            return ticks() - before <= 2  # hundredths of a second
+        self.eventually(rests, "it never comes to rest: the picture is refined, nothing changes", 90)
+
+    def test_resized_and_closed_while_it_loads(self):
+        window = self.open(SCENES / "walker.dae")
+        self.display.xdotool("windowsize", window.id, 700, 500)
+        self.display.xdotool("windowsize", window.id, 500, 330)
+        window.key("ctrl+q")
+        self.assertEqual(window.process.wait(20), 0)
+        window = self.open(MATTE)
+        for width, height in ((1200, 700), (480, 320), (1279, 799)):
+            self.display.xdotool("windowsize", window.id, width, height)
+            time.sleep(0.2)
+        self.display.xdotool("windowminimize", window.id)
+        self.display.xdotool("windowmap", window.id)
+        self.display.xdotool("windowfocus", window.id)
+        self.display.xdotool("windowsize", window.id, 1, 1)
+        window.key("Right")
+        window.recorded(self.record, "^next$")
+        self.display.xdotool("windowsize", window.id, 1279, 799)
+        self.drawn(PICTURE)
+        self.command(window, "seek 3")
+        self.assertIn("seek 3", self.words(window))
+
+    def test_a_shader_is_edited(self):
+        scene = self.folder / "scene.dae"
+        shutil.copy(SCENES / "walker.dae", scene)
+        original = scene.read_text()
+        window = self.open(scene)
+        self.drawn(PICTURE)
+        window.click(420, 330)  # the walker: marble
+        window.recorded(self.record, "^click ")
+        self.eventually(lambda: window.key("ctrl+e") or re.search("^edit$", self.record.read_text(), re.M), "nothing to edit")
+        window.click(1000, 300)
+        window.key("ctrl+End")
+        window.type("float broken(")
+        window.recorded(self.record, r"^set_text .*float broken\(")
+        window.key("ctrl+a")
+        self.display.xdotool("key", "Delete")
+        window.type("surface plain() { Ci = color(0, 1, 0); Oi = 1; }")
+        window.recorded(self.record, r"^set_text .*Oi = 1; }")
+        self.eventually(lambda: window.key("ctrl+s") or re.search("^save$", self.record.read_text(), re.M), "it is not saved")
+        text = self.words(window)
+        self.assertIn("edit", text)
+        self.assertIn("set_text", text)
+        self.assertRegex(text, re.compile(r"^save$", re.M))
+        self.assertIn("surface plain()", scene.read_text())
+        self.assertNotIn("surface plain()", original)
+
+    def test_broken_and_missing_scenes_say_so(self):
+        broken = self.folder / "broken.dae"
+        broken.write_bytes((SCENES / "walker.dae").read_bytes()[:3000])
+        for scene in (broken, self.folder / "missing.dae"):
+            with self.subTest(scene.name):
+                window = self.open(scene)
+                self.eventually(lambda: self.reds() > 20, "nothing red on the screen")
+                self.assertIsNone(window.process.poll())
+                window.close()
+
+    def reds(self):
+        """Pixels of the color that errors have."""
+        rgb = self.display.rgb()
+        return sum(1 for i in range(0, len(rgb), 3) if rgb[i] == 255 and rgb[i + 1] == 0x6b and rgb[i + 2] == 0x5e)
+
+    def test_scenes_without_meshes_and_without_camera(self):
+        text = MATTE.read_text()
+        empty, blind = self.folder / "empty.dae", self.folder / "blind.dae"
+        empty.write_text(re.sub(r"<instance_geometry.*?</instance_geometry>", "", text, flags=re.S))
+        self.assertNotIn("<instance_camera", text)
+        blind.write_text(text)
+        window = self.open(empty)
+        self.eventually(lambda: self.reds() > 20, "an empty scene says nothing")
+        # Another one takes its place, as one that is dropped on the window does.
+        self.command(window, f"open {blind}")
+        self.drawn(PICTURE)
+        self.assertRegex(self.words(window), r"\nopen ")
+
+    def test_a_shader_that_loops_for_ever_leaves_the_window_alive(self):
+        script = self.folder / "script.txt"
+        script.write_text('select_material bright\nedit\nplay on\n'
+                          'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0; while (1) k += 1; Ci = k; Oi = 1; }"\n')
+        window = self.open(MATTE, "--script", script)
+        window.recorded(self.record, "^set_text ")
+        window.key("Tab", "Tab")
+        window.recorded(self.record, "^hud$", 2)
+        self.words(window)
+
+    def answers(self, window, box):
+        """Milliseconds from a press of H to the screen that it changes, ten times; xdotool's own time is among them."""
+        times = []
+        for _ in range(10):
+            before = self.display.rgb()
+            start = time.monotonic()
+            self.display.xdotool("key", "h")
+            while changed(before, self.display.rgb(), box, 1280) < 500:
+                self.assertLess(time.monotonic() - start, 20, "the window does not answer")
+            times.append(1000 * (time.monotonic() - start))
+            time.sleep(0.3)  # laid out; no press is counted twice
+        return sorted(times)
+
+    def test_it_answers_while_a_frame_takes_long(self):
+        """Every frame is endless, or one of many rays. The best of ten is compared, since other work may hold the processors:
+        at rest it is the same as while frames are made, and one whose loop waited for the frame would never be near it."""
+        script = self.folder / "script.txt"
+        script.write_text('select_material bright\nedit\nplay on\n'
+                          'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0; while (1) k += u; Ci = k; Oi = 1; }"\n')
+        box = (400, 200, 700, 400)
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        window.wait_still(30, 1)
+        rest = self.answers(window, box)
+        self.words(window)
+        for scene, words in ((MATTE, ("--script", script)), (SCENES / "rays.dae", ("--quality", "final"))):
+            with self.subTest(scene.name):
+                self.record.unlink()
+                window = self.open(scene, *words)
+                if words[0] == "--script":
+                    window.recorded(self.record, "^set_text ")
+                time.sleep(2)
+                busy = self.answers(window, box)
+                print(f"{scene.name}: {busy[0]:.0f} ms at best, {busy[5]:.0f} in the median; at rest {rest[0]:.0f} and {rest[5]:.0f}")
+                self.assertLess(busy[0], rest[0] + 100)
+                self.words(window)
+
+    def test_a_script_that_fails_says_where(self):
+        script = self.folder / "script.txt"
+        script.write_text("seek 1\norbitt 3 4\nseek 2\n")
+        window = self.open(MATTE, "--script", script)
+        window.recorded(self.record, "^seek 1$")
+        self.drawn(PICTURE)
+        window.key("ctrl+q")
+        self.assertEqual(window.process.wait(20), 1)
+        self.assertIn("script.txt:2:1: error: there is no command 'orbitt'", window.process.stderr.read())
+        self.assertNotIn("seek 2", self.record.read_text())
+
+
+class WithoutDisplayTest(unittest.TestCase):
+    def test_it_points_to_headless(self):
+        environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+        done = subprocess.run([str(PROGRAM), str(MATTE)], env=environment, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no display", done.stderr)
+        self.assertIn("--headless", done.stderr)
+
+
+if __name__ == "__main__":
+    if not PROGRAM.exists() or displays.missing():
+        print("skipped: needs", ", ".join(displays.missing() or [str(PROGRAM)]))
+        sys.exit(77)
+    unittest.main(verbosity=2)

@@ -1,0 +1,163 @@
+"""tests/programs/render/unused_content_test.py: what a picture does not need costs nothing in a frame: walker.dae with
+unused content added does as much work as without, counted."""
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from programs import SCENES, ProgramTest, main, render
+
+WALKER = (SCENES / "walker.dae").read_text()
+# What a frame does, and what a scene compiled.
+PER_FRAME = ("rays", "shadow_rays", "nested_rays", "shading_points", "refits", "rebuilds")
+PER_SCENE = ("kernels", "code_bytes")
+
+
+def added(library, inside, text=WALKER):
+    """The document with content put at the end of a library, or in a new one before the scenes."""
+    end = f"</library_{library}>"
+    if end in text:
+        return text.replace(end, inside + end, 1)
+    return text.replace("<library_visual_scenes>", f"<library_{library}>{inside}{end}<library_visual_scenes>", 1)
+
+
+def in_scene(nodes, text=WALKER):
+    return text.replace("</visual_scene>", nodes + "</visual_scene>", 1)
+
+
+def floats(id, values, stride, names):
+    params = "".join(f'<param name="{n}" type="float"/>' for n in names)
+    return (f'<source id="{id}"><float_array id="{id}-a" count="{len(values)}">{" ".join(map(str, values))}</float_array>'
+            f'<technique_common><accessor source="#{id}-a" count="{len(values) // stride}" stride="{stride}">{params}'
+            "</accessor></technique_common></source>")
+
+
+def unused_animations(count, keys):
+    """Channels on nodes of a library that no scene shows."""
+    nodes = "".join(f'<node id="ghost{i}"><translate sid="t">0 0 0</translate></node>' for i in range(count))
+    text = "".join(
+        f'<animation id="ga{i}">{floats(f"ga{i}-i", [k / 10 for k in range(keys)], 1, ["TIME"])}'
+        f'{floats(f"ga{i}-o", list(range(keys)), 1, ["X"])}'
+        f'<source id="ga{i}-n"><Name_array id="ga{i}-na" count="{keys}">{"LINEAR " * keys}</Name_array><technique_common>'
+        f'<accessor source="#ga{i}-na" count="{keys}" stride="1"><param name="INTERPOLATION" type="name"/></accessor>'
+        f'</technique_common></source><sampler id="ga{i}-s"><input semantic="INPUT" source="#ga{i}-i"/>'
+        f'<input semantic="OUTPUT" source="#ga{i}-o"/><input semantic="INTERPOLATION" source="#ga{i}-n"/></sampler>'
+        f'<channel source="#ga{i}-s" target="ghost{i}/t.X"/></animation>' for i in range(count))
+    return added("animations", text, added("nodes", nodes))
+
+
+def unused_effects(count):
+    code = "surface u(float a = 1;) { color c = 0; float i; for (i = 0; i &lt; 9; i += 1) c += noise(P * i); Ci = c * a; }"
+    effects = "".join(
+        f'<effect id="ue{i}"><profile_RSL><technique sid="t"><code>{code}</code><pass><shader stage="SURFACE"/></pass>'
+        "</technique></profile_RSL></effect>" for i in range(count))
+    materials = "".join(f'<material id="um{i}"><instance_effect url="#ue{i}"/></material>' for i in range(count))
+    return added("materials", materials, added("effects", effects))
+
+
+def unused_images(count):
+    return added("images", "".join(f'<image id="ui{i}"><init_from>unused{i}.png</init_from></image>' for i in range(count)))
+
+
+def meshes_out_of_view(count):
+    """Behind the camera and below the floor, where no ray of the picture goes."""
+    mesh = ('<geometry id="far-square"><mesh>' + floats("far-p", [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], 3, "XYZ") +
+            '<vertices id="far-v"><input semantic="POSITION" source="#far-p"/></vertices><triangles count="2">'
+            '<input semantic="VERTEX" source="#far-v" offset="0"/><p>0 1 2 0 2 3</p></triangles></mesh></geometry>')
+    nodes = "".join(f'<node><translate>{i % 25} -400 {i // 25}</translate><instance_geometry url="#far-square"/></node>'
+                    for i in range(count))
+    return added("geometries", mesh, in_scene(nodes))
+
+
+def static_nodes(count):
+    return in_scene("".join(f"<node><translate>{i} 0 0</translate></node>" for i in range(count)))
+
+
+def black_lights(count):
+    lights = "".join(f'<light id="bl{i}"><technique_common><point><color>0 0 0</color></point></technique_common></light>'
+                     for i in range(count))
+    nodes = "".join(f'<node><translate>0 {i} 0</translate><instance_light url="#bl{i}"/></node>' for i in range(count))
+    return added("lights", lights, in_scene(nodes))
+
+
+def lights_that_miss(count):
+    lights = "".join(
+        f'<light id="ml{i}"><technique_common><spot><color>1 1 1</color><falloff_angle>10</falloff_angle></spot>'
+        "</technique_common></light>" for i in range(count))
+    # A spot looks along -z of its node: these stand far off and look away.
+    nodes = "".join(f'<node><translate>0 0 {-1000 - i}</translate><instance_light url="#ml{i}"/></node>'
+                    for i in range(count))
+    return added("lights", lights, in_scene(nodes))
+
+
+def unused_parameters(count):
+    """Of the floor's effect: parameters that its shader does not have, and outputs that nobody asks for."""
+    outputs = "".join(f"output varying float ua{i} = 0; " for i in range(count))
+    writes = "".join(f"ua{i} = (s + {i}) * t;\n" for i in range(count))  # no call, whose random numbers would be others
+    parameters = "".join(f'<newparam sid="up{i}"><float>{i}</float></newparam>' for i in range(count))
+    head, effect, rest = WALKER.partition('<effect id="planks-rsl">')
+    rest = rest.replace("surface planks(", "surface planks(" + outputs, 1)
+    return head + effect + parameters + rest.replace("normal Nf =", writes + "normal Nf =", 1)
+
+
+class UnusedContent(ProgramTest):
+    base = None
+
+    def counts(self, text, *words):
+        scene = self.write("w.dae", text)
+        out = self.expect(render(scene, "-o", "null", "--size", "96x54", "--spp", "1", "--frames", "2-4", "--stats=json",
+                                 "-q", *words), 0).out
+        stats = json.loads(out)
+        return ({k: stats[k] for k in PER_SCENE}, [{k: f[k] for k in PER_FRAME} for f in stats["frames"]])
+
+    def expect_no_more(self, text, *words, kernels=True):
+        if UnusedContent.base is None:
+            UnusedContent.base = self.counts(WALKER)
+        scene, frames = self.counts(text, *words)
+        self.assertEqual(frames, UnusedContent.base[1])
+        if kernels:
+            self.assertEqual(scene, UnusedContent.base[0])
+
+    def explained(self, text, section):
+        out = self.expect(render(self.write("w.dae", text), "--explain=json", "-q"), 0).out
+        return [r for r in json.loads(out)[section] if r["modelled"]]
+
+    def test_channels_that_nothing_shows(self):
+        text = unused_animations(500, 20)
+        self.expect_no_more(text)
+        self.assertEqual(self.explained(text, "animation"), self.explained(WALKER, "animation"))
+
+    def test_effects_that_nothing_wears(self):
+        self.expect_no_more(unused_effects(1000))
+
+    def test_images_that_no_shader_names(self):
+        text = unused_images(200)
+        self.expect_no_more(text)
+        self.assertEqual(self.explained(text, "textures"), self.explained(WALKER, "textures"))
+
+    def expect_nearly_the_same(self, text):
+        _, base = self.counts(WALKER)
+        _, frames = self.counts(text)
+        for before, after in zip(base, frames):
+            for name, count in before.items():
+                self.assertLessEqual(abs(after[name] - count), count // 500, name)
+
+    def test_meshes_out_of_view(self):
+        """They move the scene's bounds, and so the rounding of positions: a few rays at edges may differ."""
+        self.expect_nearly_the_same(meshes_out_of_view(500))
+
+    def test_nodes_that_stand(self):
+        self.expect_no_more(static_nodes(1000))
+
+    def test_black_lights(self):
+        self.expect_nearly_the_same(black_lights(100))
+
+    def test_parameters_and_outputs_that_nothing_asks_for(self):
+        self.expect_no_more(unused_parameters(1000))
+
+    def test_lights_that_look_away(self):
+        self.expect_nearly_the_same(lights_that_miss(100))
+
+
+if __name__ == "__main__":
+    main()
