@@ -1,6 +1,7 @@
 // runtime/programs/play/ui/fonts.cpp: fonts with the letters that names of scenes have.
 #include <imgui_freetype.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
