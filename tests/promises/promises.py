@@ -60,7 +60,7 @@ def known_tests():
         for suite, name in re.findall(r"^TEST(?:_P|_F)?\((\w+), (\w+)\)", path.read_text(), re.M):
             key = f"{suite}.{name}"
             names[key] = names.get(key, False) or programs.get(path.resolve(), False)
-    for path in (TESTS / "programs").glob("*.py"):
+    for path in (TESTS / "programs").rglob("*.py"):
         for name in re.findall(r"^    def (test_\w+)\(self", path.read_text(), re.M):
             names[f"{path.name}:{name}"] = False
     return names
