@@ -41,15 +41,13 @@ struct ImGuiScope {
 };
 
 // The events of one turn. ImGui sees states, so that a button that goes down and up in a turn would
-// be lost, and the last step of a drag, and the order of keys too: such an event waits for the next
-// turn.
+// be lost, and the order of keys too: such an event waits for the next turn.
 class Batch {
   public:
     bool takes(const SDL_Event& event) {
         switch (event.type) {
             case SDL_MOUSEBUTTONDOWN:
             case SDL_MOUSEBUTTONUP: {
-                if (event.type == SDL_MOUSEBUTTONUP && moved_) return false;
                 const unsigned bit = 1u << (event.button.button & 31);
                 if (buttons_ & bit) return false;
                 buttons_ |= bit;
@@ -62,7 +60,6 @@ class Batch {
             case SDL_KEYUP:
                 return event.key.keysym.scancode != key_;
             case SDL_MOUSEMOTION:
-                moved_ = !buttons_;
                 return !buttons_;  // a press is where it was
             default:
                 return true;
@@ -71,7 +68,6 @@ class Batch {
 
   private:
     unsigned buttons_ = 0;
-    bool moved_ = false;
     int key_ = 0;
 };
 
