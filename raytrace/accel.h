@@ -40,6 +40,7 @@ struct alignas(64) RayPacket16 {
     // A hint to intersect16 that the rays are neighbours (camera rays): up to 3 times the rate, the
     // same answers; slower for rays that scatter.
     bool coherent = false;
+    bool normals = true;  // false: nobody reads HitPacket16::Ng, and it is not filled
 };
 
 // p = (1-u-v) p0 + u p1 + v p2. Lanes that miss have geometry == kNone and the rest undefined.

@@ -8,6 +8,10 @@
 #include <cstdio>
 #include <cstring>
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 #include "raytrace/embree_p.h"
 #include "runtime/base/check.h"
 
@@ -115,31 +119,54 @@ bool comes_first(const QueryContext& query, const Candidate& c, unsigned lane) {
 // of t lie between what Embree compares and what it reports.
 constexpr float kTieWindow = 1.0f + 0x1p-21f;
 
-void choose_hit(const RTCFilterFunctionNArguments* args) {
-    auto& query = *reinterpret_cast<QueryContext*>(args->context);
-    const unsigned n = args->N;
-    for (unsigned i = 0; i < n; ++i) {
-        if (args->valid[i] == 0) continue;
-        uint32_t instance = RTCHitN_instID(args->hit, n, i, 0);
-        Candidate c{
-            instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, n, i),
-            RTCHitN_primID(args->hit, n, i), RTCRayN_tfar(args->ray, n, i)};
-        unsigned lane = RTCRayN_id(args->ray, n, i);
-        if (is_hidden_backface(*query.map, c, args->ray, args->hit, n, i) ||
-            (query.fixed_winner && (is_passed(query, c, lane) || !comes_first(query, c, lane)))) {
-            args->valid[i] = 0;
-            continue;
-        }
-        query.best_t[lane] = c.t;
-        query.best_slot[lane] = c.slot;
-        query.best_primitive[lane] = c.primitive;
-        if (!query.fixed_winner) continue;
-        float& tfar = RTCRayN_tfar(args->ray, n, i);
-        tfar = c.t * kTieWindow;
-        // Bodies of lower numbers may still lie farther off within the window.
-        if (in_window(query, c.t, lane))
-            tfar = std::max(tfar, std::min(query.rays->window[lane], query.rays->tfar[lane]));
+// The lanes of sixteen whose bits are not all 0, where each has all of its bits or none.
+uint32_t set_lanes(const int* lanes) {
+#if defined(__SSE2__)
+    uint32_t bits = 0;
+    for (int i = 0; i < kPacket; i += 4) {
+        const __m128i four = _mm_loadu_si128(reinterpret_cast<const __m128i*>(lanes + i));
+        bits |= uint32_t(_mm_movemask_ps(_mm_castsi128_ps(four))) << i;
     }
+    return bits;
+#else
+    uint32_t bits = 0;
+    for (int i = 0; i < kPacket; ++i) bits |= uint32_t(lanes[i] != 0) << i;
+    return bits;
+#endif
+}
+
+// `n`: of args, a constant where the compiler is to know it.
+__attribute__((always_inline)) inline void choose_lane(const RTCFilterFunctionNArguments* args,
+                                                       unsigned n, unsigned i) {
+    auto& query = *reinterpret_cast<QueryContext*>(args->context);
+    uint32_t instance = RTCHitN_instID(args->hit, n, i, 0);
+    Candidate c{instance != RTC_INVALID_GEOMETRY_ID ? instance : RTCHitN_geomID(args->hit, n, i),
+                RTCHitN_primID(args->hit, n, i), RTCRayN_tfar(args->ray, n, i)};
+    unsigned lane = RTCRayN_id(args->ray, n, i);
+    if (is_hidden_backface(*query.map, c, args->ray, args->hit, n, i) ||
+        (query.fixed_winner && (is_passed(query, c, lane) || !comes_first(query, c, lane)))) {
+        args->valid[i] = 0;
+        return;
+    }
+    query.best_t[lane] = c.t;
+    query.best_slot[lane] = c.slot;
+    query.best_primitive[lane] = c.primitive;
+    if (!query.fixed_winner) return;
+    float& tfar = RTCRayN_tfar(args->ray, n, i);
+    tfar = c.t * kTieWindow;
+    // Bodies of lower numbers may still lie farther off within the window.
+    if (in_window(query, c.t, lane))
+        tfar = std::max(tfar, std::min(query.rays->window[lane], query.rays->tfar[lane]));
+}
+
+void choose_hit(const RTCFilterFunctionNArguments* args) {
+    if (args->N == kPacket) {
+        for (uint32_t left = set_lanes(args->valid); left; left &= left - 1)
+            choose_lane(args, kPacket, unsigned(std::countr_zero(left)));
+        return;
+    }
+    for (unsigned i = 0; i < args->N; ++i)
+        if (args->valid[i] != 0) choose_lane(args, args->N, i);
 }
 
 void set_buffers(RTCGeometry g, std::span<const vec4> positions,
@@ -175,6 +202,13 @@ void load_rays(const RayPacket16& in, RTCRay16& out) {
         out.tnear[i] = FLT_MIN;
         out.tfar[i] = -1;
     }
+}
+
+// The lanes of sixteen that hold the number.
+uint32_t equal_lanes(const unsigned* lanes, unsigned number) {
+    alignas(64) int equal[kPacket];
+    for (int i = 0; i < kPacket; ++i) equal[i] = lanes[i] == number ? -1 : 0;
+    return set_lanes(equal);
 }
 
 struct alignas(64) LaneMask {
@@ -297,25 +331,25 @@ uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bo
         DenormalGuard guard;
         rtcIntersect16(lanes.valid, scene(scene_), &query.rtc, &rayhit);
     }
-    uint32_t mask = 0;
-    for (int i = 0; i < kPacket; ++i) {
-        const RTCHit16& hit = rayhit.hit;
-        hits.geometry[i] = kNone;
-        if (!(rays.active >> i & 1) || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-        bool instanced = hit.instID[0][i] != RTC_INVALID_GEOMETRY_ID;
-        const HitMap::Slot& slot = map.slots[instanced ? hit.instID[0][i] : hit.geomID[i]];
-        uint32_t row_index = row_of(slot, hit.primID[i]);
+    const RTCHit16& hit = rayhit.hit;
+    std::memcpy(hits.u, hit.u, sizeof(hits.u));
+    std::memcpy(hits.v, hit.v, sizeof(hits.v));
+    std::memcpy(hits.t, fixed_winner ? query.best_t : rayhit.ray.tfar, sizeof(hits.t));
+    std::fill_n(hits.geometry, kPacket, kNone);
+    const uint32_t met = rays.active & ~equal_lanes(hit.geomID, RTC_INVALID_GEOMETRY_ID);
+    for (uint32_t left = met; left; left &= left - 1) {
+        const int i = std::countr_zero(left);
+        const uint32_t instance = hit.instID[0][i];
+        const HitMap::Slot& slot =
+            map.slots[instance != RTC_INVALID_GEOMETRY_ID ? instance : hit.geomID[i]];
+        const uint32_t row_index = row_of(slot, hit.primID[i]);
         const HitMap::Row& row = map.rows[row_index];
         hits.geometry[i] = row.id;
         hits.instance[i] = row_index;
         hits.primitive[i] = hit.primID[i] - row.first_primitive;
-        hits.u[i] = hit.u[i];
-        hits.v[i] = hit.v[i];
-        hits.t[i] = fixed_winner ? query.best_t[i] : rayhit.ray.tfar[i];
-        set_normal(row, hit, i, hits);
-        mask |= 1u << i;
+        if (rays.normals) set_normal(row, hit, i, hits);
     }
-    return mask;
+    return met;
 }
 
 uint32_t EmbreeScene::occluded16(const RayPacket16& rays) const {

@@ -322,8 +322,8 @@ void TileJob::composite(const HitBatch& hits) {
             const size_t k = first + size_t(std::countr_zero(left));
             const uint32_t medium = shading_.medium_behind(hits, k);
             pass_through(accel_, m_.rays, going_on, hits, k);
-            m_.rays.turns[going_on] = m_.passages[k].turns;
-            m_.rays.spent[going_on] = m_.passages[k].spent;
+            m_.rays.turns[going_on] += m_.passages[k].turns;
+            m_.rays.spent[going_on] += m_.passages[k].spent;
             m_.rays.weight[going_on] = largest_through(m_.rays.slot[going_on]);
             m_.rays.medium[going_on++] = medium;
         }

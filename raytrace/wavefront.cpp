@@ -2,8 +2,10 @@
 #include "raytrace/wavefront.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 #include "raytrace/points/points.h"
 #include "runtime/base/check.h"
@@ -94,7 +96,6 @@ void load_packet(const RayBatch& rays, size_t first, uint32_t mask, RayPacket16&
     std::memcpy(packet.dir_z, rays.dir[2] + first, bytes);
     std::memcpy(packet.tnear, rays.tnear + first, bytes);
     std::memcpy(packet.tfar, rays.tfar + first, bytes);
-    std::memcpy(packet.time, rays.time + first, bytes);
     std::fill_n(packet.mask, kPacket, mask);
     packet.passing = rays.passing;
     if (rays.passing) {
@@ -106,30 +107,47 @@ void load_packet(const RayBatch& rays, size_t first, uint32_t mask, RayPacket16&
     packet.active = left >= kPacket ? 0xffffu : (1u << left) - 1;
 }
 
-void append_hits(const HitPacket16& hits, uint32_t lanes, size_t first, HitBatch& out) {
-    if (lanes == 0xffffu) {
-        const size_t k = out.count;
-        auto copy = [&](const auto* to, const auto& from) {
-            std::memcpy(own(to) + k, from, sizeof(from));
-        };
-        copy(out.geometry, hits.geometry), copy(out.instance, hits.instance);
-        copy(out.primitive, hits.primitive), copy(out.t, hits.t);
-        copy(out.u, hits.u), copy(out.v, hits.v);
-        for (uint32_t i = 0; i < kPacket; ++i) own(out.ray)[k + i] = uint32_t(first) + i;
-        out.count += kPacket;
-        return;
+// The columns of hits that are those of their rays, from one to the other.
+class RayColumns {
+  public:
+    RayColumns(const RayBatch& rays, const HitBatch& hits) {
+        add(rays.first_org, hits.org), add(rays.dir, hits.dir);
+        add(rays.time, hits.time);
+        add(rays.pixel_x, hits.pixel_x), add(rays.pixel_y, hits.pixel_y);
+        add(rays.sample, hits.sample), add(rays.layer, hits.layer);
+        if (rays.spreads) add(rays.dDdx, hits.dDdx), add(rays.dDdy, hits.dDdy);
     }
-    for (; lanes; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
-        const size_t k = out.count++;
-        own(out.geometry)[k] = hits.geometry[i];
-        own(out.instance)[k] = hits.instance[i];
-        own(out.primitive)[k] = hits.primitive[i];
-        own(out.u)[k] = hits.u[i];
-        own(out.v)[k] = hits.v[i];
-        own(out.t)[k] = hits.t[i];
-        own(out.ray)[k] = uint32_t(first) + uint32_t(i);
+    // Appends the rays of `lanes`, of the sixteen from `first` on, to the hits; the batch counts on
+    // when all is there.
+    void append(size_t first, uint32_t lanes, HitBatch& out) const {
+        point_kernels().keep(lanes, columns_, count_, first, out.count);
+        uint32_t* ray = own(out.ray) + out.count;
+        for (uint32_t left = lanes; left; left &= left - 1)
+            *ray++ = uint32_t(first) + uint32_t(std::countr_zero(left));
+        out.count += size_t(std::popcount(lanes));
     }
+
+  private:
+    template <class T>
+    void add(const T* from, const T* to) {
+        columns_[count_++] = {from, own(to)};
+    }
+    void add(const float* const (&from)[3], const float* const (&to)[3]) {
+        for (int c = 0; c < 3; ++c) add(from[c], to[c]);
+    }
+    KeptColumn columns_[kMostKept];
+    size_t count_ = 0;
+};
+
+// What the packet's lanes have met, to where the hits end.
+void append_hits(const HitPacket16& hits, uint32_t lanes, const HitBatch& out) {
+    const KeptColumn columns[] = {{hits.geometry, own(out.geometry)},
+                                  {hits.instance, own(out.instance)},
+                                  {hits.primitive, own(out.primitive)},
+                                  {hits.u, own(out.u)},
+                                  {hits.v, own(out.v)},
+                                  {hits.t, own(out.t)}};
+    point_kernels().keep(lanes, columns, std::size(columns), 0, out.count);
 }
 
 constexpr float kLeastCosine = 0.01f;
@@ -147,15 +165,6 @@ class BlockOfHits {
         for (size_t i = 0; i < kPacket; ++i) scratch[i] = column[ray_[i < count_ ? i : 0]];
         return scratch;
     }
-    template <class T>
-    void copy(const T* from, const T* to) const {  // `to` has room for sixteen
-        T scratch[kPacket];
-        std::memcpy(own(to), at(from, scratch), sizeof(scratch));
-    }
-    void copy(const float* const (&from)[3], const float* const (&to)[3], size_t first) const {
-        for (int c = 0; c < 3; ++c) copy(from[c], to[c] + first);
-    }
-
   private:
     const uint32_t* ray_;
     size_t count_;
@@ -163,13 +172,13 @@ class BlockOfHits {
 };
 
 void footprint(const BlockOfHits& block, const HitBatch& hits, size_t first, float* const dO[3],
-               float* const dD[3], const float* const dP[3]) {
-    float scratch[6][kPacket];
+               const float* const dD[3], const float* const dP[3]) {
+    float scratch[3][kPacket];
     FootprintRays rays;
     float* to[3];
     for (int c = 0; c < 3; ++c) {
         rays.dO[c] = block.at<float>(dO[c], scratch[c]);
-        rays.dD[c] = block.at<float>(dD[c], scratch[3 + c]);
+        rays.dD[c] = dD[c] + first;
         rays.dir[c] = hits.dir[c] + first;
         rays.Ng[c] = hits.Ng[c] + first;
         to[c] = own(dP[c]) + first;
@@ -178,33 +187,25 @@ void footprint(const BlockOfHits& block, const HitBatch& hits, size_t first, flo
     point_kernels().footprint(rays, kLeastCosine, to);
 }
 
+// Distances of rays that go on behind hits, from where they began.
+void count_on(const RayBatch& rays, const HitBatch& hits) {
+    std::fill_n(own(hits.beside), hits.count, 0u);
+    if (!rays.passing) return;
+    for (size_t k = 0; k < hits.count; ++k) {
+        const uint32_t ray = hits.ray[k];
+        float& t = own(hits.t)[k];
+        own(hits.beside)[k] = t <= rays.window[ray];
+        t += rays.t_passed[ray];
+    }
+}
+
 // In blocks of sixteen; what is written behind the last hit is padding.
-void fill_from_rays(const RayBatch& rays, const HitBatch& hits) {
+void find_footprints(const RayBatch& rays, const HitBatch& hits) {
     static_assert(kPacket == kPoints);
     for (size_t first = 0; first < hits.count; first += kPacket) {
         const BlockOfHits block(hits.ray + first, std::min<size_t>(hits.count - first, kPacket));
-        float scratch[kPacket];
-        float* t = own(hits.t) + first;
-        uint32_t* beside = own(hits.beside) + first;
-        std::fill_n(beside, kPacket, 0u);
-        if (rays.passing) {
-            const float* window = block.at<float>(rays.window, scratch);
-            for (size_t i = 0; i < kPacket; ++i) beside[i] = t[i] <= window[i];
-        }
-        const float* passed = block.at<float>(rays.t_passed, scratch);
-        for (size_t i = 0; i < kPacket; ++i) t[i] += passed[i];
-        block.copy(rays.first_org, hits.org, first);
-        block.copy(rays.dir, hits.dir, first);
-        block.copy<float>(rays.time, hits.time + first);
-        block.copy<uint32_t>(rays.pixel_x, hits.pixel_x + first);
-        block.copy<uint32_t>(rays.pixel_y, hits.pixel_y + first);
-        block.copy<uint32_t>(rays.sample, hits.sample + first);
-        block.copy<uint32_t>(rays.layer, hits.layer + first);
-        if (!rays.spreads) continue;
-        block.copy(rays.dDdx, hits.dDdx, first);
-        block.copy(rays.dDdy, hits.dDdy, first);
-        footprint(block, hits, first, rays.dOdx, rays.dDdx, hits.dPdx);
-        footprint(block, hits, first, rays.dOdy, rays.dDdy, hits.dPdy);
+        footprint(block, hits, first, rays.dOdx, hits.dDdx, hits.dPdx);
+        footprint(block, hits, first, rays.dOdy, hits.dDdy, hits.dPdy);
     }
 }
 
@@ -251,12 +252,17 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
     out.rays = &rays;
     {
         StageScope stage(Stage::Trace);
+        const RayColumns columns(rays, out);
         RayPacket16 packet;
         HitPacket16 hits;
+        packet.coherent = depth == 0;
+        packet.normals = false;  // surface_points() finds them
         for (size_t first = 0; first < rays.count; first += kPacket) {
             load_packet(rays, first, mask, packet);
-            packet.coherent = depth == 0;
-            append_hits(hits, accel.intersect16(packet, hits, counters), first, out);
+            const uint32_t lanes = accel.intersect16(packet, hits, counters);
+            if (lanes == 0) continue;
+            append_hits(hits, lanes, out);
+            columns.append(first, lanes, out);
         }
     }
     StageScope stage(Stage::Points);
@@ -264,10 +270,35 @@ const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, u
                          {{own(out.P[0]), own(out.P[1]), own(out.P[2])},
                           {own(out.P_error[0]), own(out.P_error[1]), own(out.P_error[2])},
                           {own(out.Ng[0]), own(out.Ng[1]), own(out.Ng[2])}});
-    fill_from_rays(rays, out);
+    count_on(rays, out);
+    if (rays.spreads) find_footprints(rays, out);
     pad_all(out);
     return out;
 }
+
+namespace {
+
+// The end of a ray that meets nothing as hit k.
+void put_end(const RayBatch& rays, float distance, size_t k, const HitBatch& out) {
+    const uint32_t ray = out.ray[k];
+    own(out.geometry)[k] = own(out.instance)[k] = own(out.primitive)[k] = kNone;
+    own(out.u)[k] = own(out.v)[k] = 0;
+    float square = 0;
+    for (int c = 0; c < 3; ++c) square += rays.dir[c][ray] * rays.dir[c][ray];
+    // The camera's end is a plane, farther away along rays at the picture's corners.
+    const bool to_plane = out.depth == 0 && std::isfinite(rays.tfar[ray]);
+    const float t =
+        to_plane ? rays.tfar[ray] : std::min(rays.tfar[ray], distance / std::sqrt(square));
+    own(out.t)[k] = t;
+    for (int c = 0; c < 3; ++c) {
+        const float P = rays.org[c][ray] + t * rays.dir[c][ray];
+        own(out.P[c])[k] = P;
+        own(out.P_error[c])[k] = std::abs(P) * 1e-6f;
+        own(out.Ng[c])[k] = 0;
+    }
+}
+
+}  // namespace
 
 const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distance,
                        HitStore& store) {
@@ -276,31 +307,18 @@ const HitBatch& missed(const RayBatch& rays, const HitBatch& hits, float distanc
     out.count = 0;
     out.depth = hits.depth;
     out.rays = &rays;
+    const RayColumns columns(rays, out);
     size_t next_hit = 0;  // hits come in the order of their rays
-    for (uint32_t ray = 0; ray < rays.count; ++ray) {
-        if (next_hit < hits.count && hits.ray[next_hit] == ray) {
-            ++next_hit;
-            continue;
-        }
-        const size_t k = out.count++;
-        own(out.ray)[k] = ray;
-        own(out.geometry)[k] = own(out.instance)[k] = own(out.primitive)[k] = kNone;
-        own(out.u)[k] = own(out.v)[k] = 0;
-        float square = 0;
-        for (int c = 0; c < 3; ++c) square += rays.dir[c][ray] * rays.dir[c][ray];
-        // The camera's end is a plane, farther away along rays at the picture's corners.
-        const bool to_plane = hits.depth == 0 && std::isfinite(rays.tfar[ray]);
-        const float t =
-            to_plane ? rays.tfar[ray] : std::min(rays.tfar[ray], distance / std::sqrt(square));
-        own(out.t)[k] = t;
-        for (int c = 0; c < 3; ++c) {
-            const float P = rays.org[c][ray] + t * rays.dir[c][ray];
-            own(out.P[c])[k] = P;
-            own(out.P_error[c])[k] = std::abs(P) * 1e-6f;
-            own(out.Ng[c])[k] = 0;
-        }
+    for (size_t first = 0; first < rays.count; first += kPacket) {
+        const size_t end = std::min(rays.count, first + kPacket);
+        uint32_t lanes = (1u << (end - first)) - 1;
+        for (; next_hit < hits.count && hits.ray[next_hit] < end; ++next_hit)
+            lanes &= ~(1u << (hits.ray[next_hit] - first));
+        if (lanes != 0) columns.append(first, lanes, out);
     }
-    fill_from_rays(rays, out);
+    for (size_t k = 0; k < out.count; ++k) put_end(rays, distance, k, out);
+    count_on(rays, out);
+    if (rays.spreads) find_footprints(rays, out);
     pad_all(out);
     return out;
 }
@@ -372,6 +390,26 @@ void occluded(const Accel& accel, const RayBatch& rays, uint32_t mask, uint8_t* 
         load_packet(rays, first, mask, packet);
         const uint32_t lanes = accel.occluded16(packet, counters);
         const size_t end = std::min(rays.count - first, size_t(kPacket));
+        for (size_t i = 0; i < end; ++i) blocked[first + i] = lanes >> i & 1;
+    }
+}
+
+void occluded(const Accel& accel, const RayBatch& rays, std::span<const uint32_t> which,
+              uint32_t mask, uint8_t* blocked, TraceCounters& counters) {
+    if (which.size() == rays.count) return occluded(accel, rays, mask, blocked, counters);
+    RayPacket16 packet;
+    const KeptColumn columns[] = {{rays.org[0], packet.org_x}, {rays.org[1], packet.org_y},
+                                  {rays.org[2], packet.org_z}, {rays.dir[0], packet.dir_x},
+                                  {rays.dir[1], packet.dir_y}, {rays.dir[2], packet.dir_z},
+                                  {rays.tnear, packet.tnear},  {rays.tfar, packet.tfar}};
+    std::fill_n(packet.mask, kPacket, mask);
+    for (size_t first = 0; first < which.size(); first += kPacket) {
+        const size_t end = std::min(which.size() - first, size_t(kPacket));
+        uint32_t rows[kPacket];
+        for (size_t i = 0; i < kPacket; ++i) rows[i] = which[first + std::min(i, end - 1)];
+        point_kernels().pick(rows, columns, std::size(columns));
+        packet.active = end == kPacket ? 0xffffu : (1u << end) - 1;
+        const uint32_t lanes = accel.occluded16(packet, counters);
         for (size_t i = 0; i < end; ++i) blocked[first + i] = lanes >> i & 1;
     }
 }

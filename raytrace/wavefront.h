@@ -49,7 +49,7 @@ struct HitBatch {
 // How a ray goes on behind a hit.
 struct Passage {
     float onward = 1;    // what it sees there counts so many times
-    uint32_t turns = 0;  // RayBatch::turns and spent from there on
+    uint32_t turns = 0;  // added to RayBatch::turns and spent
     uint32_t spent = 0;
 };
 
@@ -147,5 +147,8 @@ void pass_through(const Accel& accel, RayBatch& rays, size_t to, const HitBatch&
 // rest. Uses org, dir, tnear, tfar, time of the batch only.
 void occluded(const Accel& accel, const RayBatch& rays, uint32_t mask, uint8_t* blocked,
               TraceCounters& counters);
+// The same for the rays of these numbers, which ascend: blocked[i] is of ray which[i].
+void occluded(const Accel& accel, const RayBatch& rays, std::span<const uint32_t> which,
+              uint32_t mask, uint8_t* blocked, TraceCounters& counters);
 
 }  // namespace kinora::raytrace

@@ -52,8 +52,26 @@ struct alignas(64) LeavingRays {
     uint32_t endless[kPoints];   // 1: the ray goes along `way`, without an end
 };
 
+// A column of four-byte numbers, and where those that are kept come to stand.
+struct KeptColumn {
+    const void* from;
+    void* to;
+};
+inline constexpr size_t kMostKept = 32;  // columns
+
+// What the normals of a triangle's corners say of the smooth surface that they describe: their
+// lengths are within a thousandth of 1 and they lie near each other; or they are all the same.
+inline constexpr uint32_t kUnitNormals = 1, kOneNormal = 2;
+
 struct PointKernels {
     const char* name;
+    // Of sixteen rows from `first` on those with a bit in `lanes`, one behind the other to the rows
+    // from `at` on. Sixteen rows are read and sixteen written: what comes behind those that are
+    // kept is any of them.
+    void (*keep)(uint32_t lanes, const KeptColumn* columns, size_t count, size_t first, size_t at);
+    // The rows with these sixteen numbers, none less than the one before. What may be read: blocks of sixteen rows
+    // that hold one of them.
+    void (*pick)(const uint32_t* rows, const KeptColumn* columns, size_t count);
     // error_scale: gamma(7) of Pharr, Jakob, Humphreys, 6.8.1. Returns a bit for each normal whose
     // squared length is not between least and most: its caller finds it with more care.
     uint32_t (*interpolate)(const TrianglePoints& at, float error_scale, float least, float most,
@@ -70,10 +88,10 @@ struct PointKernels {
     // ends, which are at 1 of their lengths.
     void (*leave)(const LeavingRays& from, float* const org[3], float* const dir[3], float* tfar);
     // A bit for each light that the facet surely sees as the smooth surface does: the cosine
-    // between Ng and the light is beyond +-least_cosine, and the mixture of the three normals that
-    // `at` has for corners is clearly on the same side of both. Also where the three are the same.
-    // Normals may be off 1 by a thousandth of their length.
-    uint32_t (*sees_light)(const TrianglePoints& at, const LeavingRays& from, float least_cosine);
+    // between Ng and the light is beyond +-least_cosine, and N, the unit vector of the mixture of
+    // kUnitNormals, is clearly on the same side of both. Also where there is kOneNormal.
+    uint32_t (*sees_light)(const LeavingRays& from, const float* const N[3],
+                           const uint32_t* normals, float least_cosine);
 };
 KINORA_KERNEL_TABLES(PointKernels, Points);
 

@@ -3,11 +3,76 @@
 // (no contraction), so all widths give the same bits.
 #pragma once
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include "raytrace/points/points.h"
 #include "runtime/base/kernel_math.h"
 
 namespace kinora::raytrace {
 namespace {
+
+#if defined(__AVX512F__)
+using Sixteen = uint32_t __attribute__((vector_size(64)));
+#endif
+
+#if defined(__AVX512F__)
+void keep(uint32_t lanes, const KeptColumn* columns, size_t count, size_t first, size_t at) {
+    const __m512i all = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const auto which = Sixteen(_mm512_maskz_compress_epi32(__mmask16(lanes), all));
+    for (size_t c = 0; c < count; ++c) {
+        Sixteen row;
+        __builtin_memcpy(&row, static_cast<const uint32_t*>(columns[c].from) + first, sizeof(row));
+        row = __builtin_shuffle(row, which);
+        __builtin_memcpy(static_cast<uint32_t*>(columns[c].to) + at, &row, sizeof(row));
+    }
+}
+#else
+void keep(uint32_t lanes, const KeptColumn* columns, size_t count, size_t first, size_t at) {
+    uint32_t lane[kPoints] = {};
+    size_t n = 0;
+    for (uint32_t left = lanes; left; left &= left - 1) lane[n++] = uint32_t(__builtin_ctz(left));
+    for (size_t c = 0; c < count; ++c) {
+        uint32_t row[kPoints], kept[kPoints];
+        const char* from = static_cast<const char*>(columns[c].from) + first * sizeof(uint32_t);
+        char* to = static_cast<char*>(columns[c].to) + at * sizeof(uint32_t);
+        __builtin_memcpy(row, from, sizeof(row));
+        for (size_t i = 0; n < kPoints && i < kPoints; ++i) kept[i] = row[lane[i]];
+        __builtin_memcpy(to, n < kPoints ? kept : row, sizeof(row));
+    }
+}
+#endif
+
+void pick(const uint32_t* rows, const KeptColumn* columns, size_t count) {
+#if defined(__AVX512F__)
+    const size_t base = rows[0] / kPoints * kPoints;
+    const bool two = rows[kPoints - 1] - base >= kPoints;  // blocks
+    if (rows[kPoints - 1] - base < 2 * kPoints) {
+        Sixteen which, low, high;
+        __builtin_memcpy(&which, rows, sizeof(which));
+        which -= uint32_t(base);
+        for (size_t c = 0; c < count; ++c) {
+            const char* from = static_cast<const char*>(columns[c].from) + base * sizeof(uint32_t);
+            __builtin_memcpy(&low, from, sizeof(low));
+            __builtin_memcpy(&high, two ? from + sizeof(low) : from, sizeof(high));
+            low = __builtin_shuffle(low, high, which);
+            __builtin_memcpy(columns[c].to, &low, sizeof(low));
+        }
+        return;
+    }
+#endif
+    const bool dense = rows[kPoints - 1] - rows[0] == kPoints - 1;
+    for (size_t c = 0; c < count; ++c) {
+        const uint32_t* from = static_cast<const uint32_t*>(columns[c].from);
+        alignas(64) uint32_t found[kPoints];
+        if (dense)
+            __builtin_memcpy(found, from + rows[0], sizeof(found));
+        else
+            for (size_t i = 0; i < kPoints; ++i) found[i] = from[rows[i]];
+        __builtin_memcpy(columns[c].to, found, sizeof(found));
+    }
+}
 
 uint32_t interpolate(const TrianglePoints& at, float error_scale, float least, float most,
                      PointBlock& out) {
@@ -126,37 +191,26 @@ void leave(const LeavingRays& from, float* const org[3], float* const dir[3], fl
     __builtin_memcpy(tfar, T, sizeof(T));
 }
 
-uint32_t sees_light(const TrianglePoints& at, const LeavingRays& from, float least_cosine) {
-    constexpr float kNearUnit = 2e-3f;  // of squares: lengths are within half of that
-    constexpr float kClear = 4e-3f;     // the mixture is off by no more than a quarter of that
+uint32_t sees_light(const LeavingRays& from, const float* const N[3], const uint32_t* normals,
+                    float least_cosine) {
+    constexpr float kClear = 1e-2f;  // N is off by no more than a third of that
     const float least = 1.02f * least_cosine * least_cosine;
-    alignas(64) float n[3][3][kPoints];  // corner, component, point
-    for (int k = 0; k < 3; ++k)
-        for (size_t i = 0; i < kPoints; i += 4) corners_to_rows(at.corner[k] + i, i, n[k]);
+    const float *nx = N[0], *ny = N[1], *nz = N[2];
     uint32_t seen[kPoints];
     for (size_t i = 0; i < kPoints; ++i) {
         const float wx = from.way[0][i], wy = from.way[1][i], wz = from.way[2][i];
         const float gx = from.Ng[0][i], gy = from.Ng[1][i], gz = from.Ng[2][i];
         const float square = wx * wx + wy * wy + wz * wz;
         const float cosine = gx * wx + gy * wy + gz * wz;
-        const float weight[3] = {1.0f - at.u[i] - at.v[i], at.u[i], at.v[i]};
-        float mx = 0, my = 0, mz = 0;
-        uint32_t sure = cosine * cosine > least * square;
-        for (int k = 0; k < 3; ++k) {
-            const float x = n[k][0][i], y = n[k][1][i], z = n[k][2][i];
-            sure &= uint32_t(__builtin_fabsf(x * x + y * y + z * z - 1) < kNearUnit);
-            mx += weight[k] * x;
-            my += weight[k] * y;
-            mz += weight[k] * z;
-        }
-        const float of_facet = mx * gx + my * gy + mz * gz, of_light = mx * wx + my * wy + mz * wz;
-        sure &= uint32_t(__builtin_fabsf(of_facet) > kClear) &
-                uint32_t(of_light * of_light > kClear * kClear * square) &
-                (uint32_t(of_facet < 0) ^ uint32_t(of_light < 0) ^ uint32_t(cosine < 0) ^ 1u);
-        uint32_t same = 1;
-        for (int c = 0; c < 3; ++c)
-            same &= uint32_t(n[0][c][i] == n[1][c][i]) & uint32_t(n[0][c][i] == n[2][c][i]);
-        seen[i] = (sure | same) << i;
+        const float of_facet = nx[i] * gx + ny[i] * gy + nz[i] * gz;
+        const float of_light = nx[i] * wx + ny[i] * wy + nz[i] * wz;
+        const uint32_t sure =
+            uint32_t(cosine * cosine > least * square) &
+            uint32_t(__builtin_fabsf(of_facet) > kClear) &
+            uint32_t(of_light * of_light > kClear * kClear * square) &
+            (uint32_t(of_facet < 0) ^ uint32_t(of_light < 0) ^ uint32_t(cosine < 0) ^ 1u);
+        const uint32_t kind = normals[i];
+        seen[i] = ((sure & uint32_t(kind == kUnitNormals)) | uint32_t(kind == kOneNormal)) << i;
     }
     uint32_t all = 0;
     for (size_t i = 0; i < kPoints; ++i) all |= seen[i];
@@ -167,6 +221,6 @@ uint32_t sees_light(const TrianglePoints& at, const LeavingRays& from, float lea
 
 extern const PointKernels KINORA_KERNEL_TABLE(Points);
 const PointKernels KINORA_KERNEL_TABLE(Points) = {
-    KINORA_INSTRUCTION_SET, interpolate, normalize, sound, footprint, leave, sees_light};
+    KINORA_INSTRUCTION_SET, keep, pick, interpolate, normalize, sound, footprint, leave, sees_light};
 
 }  // namespace kinora::raytrace

@@ -66,8 +66,10 @@ struct ColumnKernels {
     void (*turn_between)(const float* M, const TripleColumns& a, const TripleColumns& b,
                          float* const to[3]);
     // The unit vectors of M times the mixtures of the corners' normals. Returns a bit for each
-    // whose squared length is 0, infinite or NaN: its caller puts another in its place.
-    uint32_t (*mix_normals)(const float* M, const CornerNormals& at, float* const to[3]);
+    // whose squared length is 0, infinite or NaN: its caller puts another in its place. `kinds`:
+    // raytrace::kUnitNormals, kOneNormal or 0; M keeps angles.
+    uint32_t (*mix_normals)(const float* M, const CornerNormals& at, float* const to[3],
+                            uint32_t* kinds);
     // Finds `inv` and s, t from s, t at the corners. u, v are s, t where the triangle has an area
     // there, else the barycentrics, which `inv` then leaves as they are.
     void (*find_parameters)(OnTriangles& on, const CornerNumbers& s, const CornerNumbers& t,

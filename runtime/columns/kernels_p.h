@@ -3,6 +3,7 @@
 // (no contraction) and in the order that glm has, so all widths give the same bits.
 #pragma once
 
+#include "raytrace/points/points.h"
 #include "raytrace/random/bits.h"
 #include "runtime/base/kernel_math.h"
 #include "runtime/columns/kernels.h"
@@ -54,7 +55,26 @@ void turn_between(const float* M, const TripleColumns& a, const TripleColumns& b
     turn_rows(M, rows, to);
 }
 
-uint32_t mix_normals(const float* M, const CornerNormals& at, float* const to[3]) {
+// What is known of the smooth surface between three normals.
+void find_kinds(const ThreeRows (&n)[3], const ThreeRows& mixed, uint32_t* kinds) {
+    constexpr float kNearUnit = 1.9e-3f;  // of squares: lengths are within half of that
+    constexpr float kLeastMixed = 0.25f;  // squared length of a mixture that directions hold for
+    for (size_t i = 0; i < kAll; ++i) {
+        uint32_t unit = 1, same = 1;
+        for (int k = 0; k < 3; ++k) {
+            const float x = n[k][0][i], y = n[k][1][i], z = n[k][2][i];
+            unit &= uint32_t(__builtin_fabsf(x * x + y * y + z * z - 1) < kNearUnit);
+            same &= uint32_t(x == n[0][0][i]) & uint32_t(y == n[0][1][i]) &
+                    uint32_t(z == n[0][2][i]);
+        }
+        const float x = mixed[0][i], y = mixed[1][i], z = mixed[2][i];
+        unit &= uint32_t(x * x + y * y + z * z > kLeastMixed);
+        kinds[i] = same ? raytrace::kOneNormal : unit * raytrace::kUnitNormals;
+    }
+}
+
+uint32_t mix_normals(const float* M, const CornerNormals& at, float* const to[3],
+                     uint32_t* kinds) {
     alignas(64) ThreeRows n[3], mixed, turned;
     for (int k = 0; k < 3; ++k)
         for (size_t i = 0; i < kAll; i += 4) corners_to_rows(at.corner[k] + i, i, n[k]);
@@ -63,6 +83,7 @@ uint32_t mix_normals(const float* M, const CornerNormals& at, float* const to[3]
             const float u = at.u[i], v = at.v[i];
             mixed[c][i] = (1 - u - v) * n[0][c][i] + u * n[1][c][i] + v * n[2][c][i];
         }
+    find_kinds(n, mixed, kinds);
     float* const rows[3] = {turned[0], turned[1], turned[2]};
     turn_rows(M, mixed, rows);
     uint32_t unsound[kAll];

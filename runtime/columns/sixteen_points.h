@@ -25,12 +25,13 @@ struct Triple {
 // Up to sixteen points of a grid, whose hits often lie one behind the other.
 class SixteenPoints {
   public:
-    SixteenPoints(std::span<const uint32_t> points, size_t first, size_t end)
+    // `ascending`: the points are known to be in order.
+    SixteenPoints(std::span<const uint32_t> points, size_t first, size_t end, bool ascending)
         : hit_(points.data() + first),
           count_(std::min(kColumnPoints, end - first)),
           dense_(count_ == kColumnPoints &&
                  hit_[kColumnPoints - 1] - hit_[0] == kColumnPoints - 1 &&
-                 std::is_sorted(hit_, hit_ + kColumnPoints)) {}
+                 (ascending || std::is_sorted(hit_, hit_ + kColumnPoints))) {}
 
     size_t count() const { return count_; }
     uint32_t hit(size_t i) const { return hit_[i < count_ ? i : 0]; }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "raytrace/hits.h"
+#include "raytrace/points/points.h"
 #include "runtime/columns/kernels.h"
 #include "runtime/columns/sixteen_points.h"
 #include "runtime/description/affine_map.h"
@@ -130,7 +131,10 @@ class HitSource : public PointSource {
 
     void fill(const PointColumns&) override {
         if (P_) positions();
-        if (I_ && !volume_) directions();
+        if (I_ && P_ && of_eye())
+            share_positions();
+        else if (I_ && !volume_)
+            directions();
         if (Ng_) geometric_normals();
         for (size_t begin = 0; begin < grid_.count();) {
             uint32_t row = hits_.instance[grid_.points[begin]];
@@ -154,6 +158,9 @@ class HitSource : public PointSource {
 
   private:
     float* column(size_t c) const { return grid_.columns[c]; }
+    SixteenPoints sixteen(size_t first, size_t end) const {
+        return {grid_.points, first, end, grid_.ascending};
+    }
 
     Triple triple_rows(uint16_t first) {
         Triple t;
@@ -165,7 +172,7 @@ class HitSource : public PointSource {
 
     void random_numbers(float* to) const {
         for (size_t first = 0; first < grid_.count(); first += kColumnPoints) {
-            const SixteenPoints points(grid_.points, first, grid_.count());
+            const SixteenPoints points = sixteen(first, grid_.count());
             uint32_t room[4][kColumnPoints], numbers[kColumnPoints];
             kernels_.random({points.at(hits_.pixel_x, room[0]), points.at(hits_.pixel_y, room[1]),
                              points.at(hits_.sample, room[2]), points.at(hits_.layer, room[3])},
@@ -201,7 +208,7 @@ class HitSource : public PointSource {
     void for_each_block(const Triple& triple, F&& f) const {
         for (size_t i = 0; i < grid_.count(); i += kColumnPoints) {
             float* const to[3] = {triple.c[0] + i, triple.c[1] + i, triple.c[2] + i};
-            f(SixteenPoints(grid_.points, i, grid_.count()), to);
+            f(sixteen(i, grid_.count()), to);
         }
     }
     void positions() const {
@@ -216,6 +223,13 @@ class HitSource : public PointSource {
             kernels_.turn_between(&rotation_[0][0], points.at(hits_.P, room),
                                   points.at(hits_.org, more), to);
         });
+    }
+    // Whether all rays began at the eye, where P and I are the same.
+    bool of_eye() const {
+        return hits_.rays && hits_.depth == 0 && !volume_ && !scene_.view.orthographic;
+    }
+    void share_positions() const {
+        for (size_t k = 0; k < 3; ++k) grid_.columns[kColI + k] = P_.c[k];
     }
     // Volumes see the way through themselves: from the last surface (or the eye) to P.
     void segments(size_t begin, size_t end) const {
@@ -236,6 +250,7 @@ class HitSource : public PointSource {
         }
         if (I_) segments(begin, end);
         if (matrices_) matrices(begin, end);
+        set_kinds(begin, end, 0);
     }
     void geometric_normals() const {
         for_each_block(Ng_, [&](const SixteenPoints& points, float* const to[3]) {
@@ -252,18 +267,23 @@ class HitSource : public PointSource {
     void normals(size_t begin, size_t end) const {
         if (mesh_->groups[surface_->group].flat()) {
             for (size_t i = begin; i < end; ++i) N_.set(i, geometric_normal(i));
-            return;
-        }
-        if (unit_corners_)
+            set_kinds(begin, end, raytrace::kOneNormal);
+        } else if (unit_corners_) {
             for (size_t i = begin; i < end; ++i) stretched_normal(i);
-        else
+            set_kinds(begin, end, 0);
+        } else {
             for (size_t i = begin; i < end; i += kColumnPoints) sixteen_normals(i, end);
+        }
+    }
+    void set_kinds(size_t begin, size_t end, uint32_t kind) const {
+        if (!grid_.normals.empty())
+            std::fill(grid_.normals.begin() + begin, grid_.normals.begin() + end, kind);
     }
     // A normal that vanishes gives way to the geometric one (docs/numerics.md#geometry).
     void sixteen_normals(size_t first, size_t end) const {
         const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
         const vec4* entries = shape_->rest_normals.data();
-        const SixteenPoints points(grid_.points, first, end);
+        const SixteenPoints points = sixteen(first, end);
         CornerNormals at;
         for (size_t i = 0; i < kColumnPoints; ++i) {
             const uint32_t hit = points.hit(i);
@@ -274,7 +294,10 @@ class HitSource : public PointSource {
         }
         float found[3][kColumnPoints];
         float* const to[3] = {found[0], found[1], found[2]};
-        uint32_t unsound = kernels_.mix_normals(&normals_[0][0], at, to);
+        uint32_t kinds[kColumnPoints];
+        uint32_t unsound = kernels_.mix_normals(&normals_[0][0], at, to, kinds);
+        if (!grid_.normals.empty())
+            std::copy_n(kinds, points.count(), grid_.normals.begin() + first);
         for (size_t k = 0; k < 3; ++k) copy_block(found[k], points.count(), N_.c[k] + first);
         for (unsound &= (1u << points.count()) - 1; unsound; unsound &= unsound - 1) {
             const size_t i = first + size_t(std::countr_zero(unsound));
@@ -300,7 +323,7 @@ class HitSource : public PointSource {
     }
 
     void sixteen_parameters(size_t first, size_t end) const {
-        const SixteenPoints points(grid_.points, first, end);
+        const SixteenPoints points = sixteen(first, end);
         const size_t count = points.count();
         Block block;
         for (size_t i = 0; i < kColumnPoints; ++i) {

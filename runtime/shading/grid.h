@@ -52,9 +52,12 @@ struct Grid {
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
     const ShaderInstance* look;
-    bool dense = false;  // hits one behind the other
+    bool dense = false;      // hits one behind the other
+    bool ascending = false;  // their numbers grow
     uint32_t depth = 0;
     std::span<float*> columns;              // by Column
+    // Of each point: raytrace::kUnitNormals, kOneNormal or 0, which is always right. With N only.
+    std::span<uint32_t> normals;
     std::span<jit::RecordSet> record_sets;  // [0]: lights at P
     uint32_t next_record_set = 1;
     int32_t record_group = -1;        // first lane of the group that lights_at served last
@@ -62,8 +65,10 @@ struct Grid {
     uint32_t record_calls = 0;        // of the group
     LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
     RayTag ray;
-    std::span<uint16_t> calls;  // of each point, that shot rays which shade what they meet
-    std::span<PointRays> rays;  // of each point; a light's are those of the points it lights
+    // Of each point that may, calls that shot rays which shade what they meet.
+    std::span<uint16_t> calls;
+    // Of each point, or none where no kernel shoots rays; a light's are those of the points it lights.
+    std::span<PointRays> rays;
     bool goes_on = false;       // the rays that see the points may go on behind them
     RayCollector* collector = nullptr;  // of rays that wait for those of other points
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null

@@ -190,6 +190,7 @@ Grid& HitShader::light_grid(const Call& call, const LookRun& run, std::span<cons
     void* at = call.memory.arena.allocate(sizeof(Grid));
     Grid& grid = *new (at) Grid(frame_, call.memory, call.hits, points, &look);
     kernels_.prepare(grid, call.ray);
+    grid.ascending = run.ascending;
     grid.dense = run.ascending && points.back() - points.front() == points.size() - 1;
     grid.shadows = &shadows;
     grid.goes_on = call.result.passages;
@@ -231,10 +232,10 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         put_output(grid, Ci[k], 0, result.Ci[k]);
         put_output(grid, Oi[k], 1, result.Oi[k]);
     }
-    for (size_t i = 0; result.passages && i < points.size(); ++i) {
+    for (size_t i = 0; result.passages && i < grid.rays.size(); ++i) {
         const PointRays& rays = grid.rays[i];
-        uint32_t turns = hits.rays->turns[hits.ray[points[i]]];
-        result.passages[points[i]] = {rays.onward, turns + rays.reflects, rays.shot};
+        const uint32_t before = hits.rays->spent[hits.ray[points[i]]];
+        result.passages[points[i]] = {rays.onward, rays.reflects, rays.shot - before};
     }
     const bool whole = frame_.insight.only_light == kNone;
     if (whole && frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);

@@ -2,6 +2,7 @@
 #include "runtime/shading/kernel_runner.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "jit/target.h"
@@ -55,15 +56,29 @@ void KernelRunner::report_faults(Diagnostics& diagnostics) const {
     });
 }
 
+bool shoots_rays(const ShaderInstance& look) {
+    static const jit::ServiceFn fns[] = {
+        find_service("trace"),           find_service("transmission"), find_service("occlusion"),
+        find_service("indirectdiffuse"), find_service("gather"),       find_service("raylimit")};
+    auto shoots = [](const BoundKernel& kernel) {
+        return std::ranges::any_of(kernel.services, [](jit::ServiceFn fn) {
+            return std::ranges::find(fns, fn) != std::end(fns);
+        });
+    };
+    return shoots(look.full) || (look.opacity && shoots(*look.opacity));
+}
+
 void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
     Arena& arena = grid.memory.arena;
     grid.depth = grid.hits.depth;
     grid.ray = ray;
     grid.columns = arena.allocate_span<float*>(grid.look->column_count);
     std::fill(grid.columns.begin(), grid.columns.end(), nullptr);
-    grid.calls = arena.allocate_span<uint16_t>(padded(grid.count()));
-    grid.rays = arena.allocate_span<PointRays>(grid.count());
-    start_accounts(grid);
+    if (frame_.lights_shoot || shoots_rays(*grid.look)) {
+        grid.calls = arena.allocate_span<uint16_t>(padded(grid.count()));
+        grid.rays = arena.allocate_span<PointRays>(grid.count());
+        start_accounts(grid);
+    }
     grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
 }

@@ -40,6 +40,9 @@ class KernelRunner {
     std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]
 };
 
+// Whether a kernel of the look calls services that count rays (PointRays).
+bool shoots_rays(const ShaderInstance& look);
+
 // The hits of one look, in their order.
 struct LookRun {
     const ShaderInstance* look;

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "raytrace/hits.h"
 #include "runtime/base/stage_clock.h"
+#include "runtime/columns/sixteen_points.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/kernels/columns.h"
@@ -115,33 +117,57 @@ std::vector<size_t> LightRecords::light_of_records() const {
 void LightRecords::want_columns(Grid& grid) const {
     want_triple(grid, kColP);
     want_triple(grid, kColN);
+    grid.normals = grid.memory.arena.allocate_span<uint32_t>(padded(grid.count()));
     constexpr uint16_t kRandom[] = {kColRng};
     if (need_rng_) kinora::want_columns(grid, kRandom);
 }
 
+namespace {
+
+// From columns of hits to columns of the grid's points.
+void of_points(const Grid& grid, std::span<const float** const> columns, const uint32_t*& surface) {
+    Arena& arena = grid.memory.arena;
+    const size_t count = grid.count();
+    std::span<float*> to = arena.allocate_span<float*>(columns.size());
+    for (float*& row : to) row = arena.allocate_span<float>(padded(count)).data();
+    uint32_t* surfaces = arena.allocate_span<uint32_t>(padded(count)).data();
+    for (size_t first = 0; first < count; first += kColumnPoints) {
+        const SixteenPoints points(grid.points, first, count, grid.ascending);
+        float room[kColumnPoints];
+        for (size_t c = 0; c < columns.size(); ++c)
+            std::memcpy(to[c] + first, points.at(*columns[c], room), sizeof(room));
+        uint32_t rows[kColumnPoints];
+        std::memcpy(surfaces + first, points.at(surface, rows), sizeof(rows));
+    }
+    for (size_t c = 0; c < columns.size(); ++c) *columns[c] = to[c];
+    surface = surfaces;
+}
+
+}  // namespace
+
 void LightRecords::run(Grid& grid) {
     StageScope stage(Stage::Lights);
-    Arena& arena = grid.memory.arena;
-    size_t count = grid.count();
     LightPoints at;
-    at.count = count;
-    // From the first of a vector on, columns of hits are columns of the points.
-    const bool dense = grid.dense && grid.points.front() % jit::kMaxLanes == 0;
-    auto of_points = [&](const auto* column) {
-        if (dense) return column + grid.points[0];
-        auto* found = arena.allocate_span<std::decay_t<decltype(*column)>>(padded(count)).data();
-        for (size_t i = 0; i < count; ++i) found[i] = column[grid.points[i]];
-        return static_cast<decltype(column)>(found);
-    };
+    at.count = grid.count();
     for (size_t k = 0; k < 3; ++k) {
         at.P[k] = grid.columns[kColP + k];
         at.N[k] = grid.columns[kColN + k];
-        at.accel[k] = of_points(grid.hits.P[k]);
-        at.error[k] = of_points(grid.hits.P_error[k]);
-        at.Ng[k] = of_points(grid.hits.Ng[k]);
+        at.accel[k] = grid.hits.P[k];
+        at.error[k] = grid.hits.P_error[k];
+        at.Ng[k] = grid.hits.Ng[k];
     }
+    at.surface = grid.hits.instance;
+    const float** columns[] = {&at.accel[0], &at.accel[1], &at.accel[2], &at.error[0], &at.error[1],
+                               &at.error[2], &at.Ng[0],    &at.Ng[1],    &at.Ng[2]};
+    // From the first of a vector on, columns of hits are columns of the points.
+    if (grid.dense && grid.points.front() % jit::kMaxLanes == 0) {
+        for (const float** column : columns) *column += grid.points[0];
+        at.surface += grid.points[0];
+    } else {
+        of_points(grid, columns, at.surface);
+    }
+    at.normals = grid.normals.data();
     at.rng = grid.columns[kColRng];
-    at.surface = of_points(grid.hits.instance);
     at.own = true;
     grid.record_sets[0] = make_records(grid, at);
 }
@@ -194,6 +220,12 @@ void LightRecords::shadow_sample(const Making& making, const SentLight& sent) co
     if (sent.casts) grid.shadows->cast(grid, making.at, sent);
 }
 
+// Of the lit points.
+std::span<PointRays> LightRecords::accounts(const Making& making) {
+    const std::span<PointRays> all = making.grid.rays;
+    return all.empty() ? all : all.subspan(making.at.first, making.at.count);
+}
+
 void LightRecords::plain_records(Making& making, size_t l) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
@@ -207,7 +239,7 @@ void LightRecords::plain_records(Making& making, size_t l) {
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     lit.lit = &grid;
     lit.lit_first = at.first;
-    lit.rays = grid.rays.subspan(at.first, at.count);
+    lit.rays = accounts(making);
     lit.record_sets = grid.record_sets;
     if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
         lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
@@ -232,7 +264,7 @@ void LightRecords::area_records(Making& making, size_t l) {
     LightSamples samples(grid, at.first, at.count, light.surface);
     Grid lit(frame_, grid.memory, samples.hits, points, &look);
     kernels_.prepare(lit, grid.ray);
-    lit.rays = grid.rays.subspan(at.first, at.count);
+    lit.rays = accounts(making);
     lit.shadows = grid.shadows;
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     if (lit.surface) {

@@ -43,6 +43,7 @@ class LightRecords {
         size_t record_count = 0, sent_count = 0;
     };
     jit::RecordSet make_records(Grid& grid, LightPoints at);
+    static std::span<PointRays> accounts(const Making& making);
     // Run a light's kernel.
     void plain_records(Making& making, size_t light);
     void area_records(Making& making, size_t light);

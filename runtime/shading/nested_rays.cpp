@@ -299,6 +299,7 @@ void NestedRays::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag
         Arena::Mark layer_mark = memory.arena.mark();
         raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
         result.passages = memory.arena.allocate_span<raytrace::Passage>(hits.count).data();
+        std::fill_n(result.passages, hits.count, raytrace::Passage{});
         hits_.shade(hits, tag, memory, result);
         size_t kept = 0;
         for (size_t h = 0; h < hits.count; ++h) {
@@ -316,8 +317,8 @@ void NestedRays::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag
             uint32_t medium = medium_behind(frame_.scene, hits, h);
             raytrace::pass_through(accel, rays, kept, hits, h);
             rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
-            rays.turns[kept] = passage.turns;
-            rays.spent[kept] = passage.spent;
+            rays.turns[kept] += passage.turns;
+            rays.spent[kept] += passage.spent;
             rays.medium[kept++] = medium;
         }
         rays.passing = true;

@@ -70,6 +70,9 @@ struct TracedRay {
 };
 TracedRay choose_way(Grid& grid, size_t point, float weight, float through);
 
+// The cosine between facet and light above which a facet is not left.
+inline constexpr float kSeesLight = 0.1f;
+
 // The smooth surface that the normals of triangles describe, for rays to lights: a facet that looks
 // away from a light which that surface sees would shade itself, in black blocks (J. Hanika, Hacking
 // the Shadow Terminator, Ray Tracing Gems II, 2021).
@@ -79,22 +82,16 @@ class SmoothSurface {
     // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
     // both accounts, where it is flat, and where the surface is hollow.
     vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
-    // The same for those of sixteen rays that `lanes` has bits for: fills their `up`; the bits of
-    // those where it is not 0.
-    uint32_t ways_from(const raytrace::HitBatch& hits, const uint32_t* hit, uint32_t lanes,
-                       raytrace::LeavingRays& rays);
 
   private:
     // What a row of the scene has for its normals.
     struct Row {
         uint32_t number = kNone;
-        bool instanced = false;
         std::span<const uint32_t> normal_corners, triangles;
         std::span<const vec4> normals, positions;
         mat3 from_rest{1.0f}, normals_from_rest{1.0f};
     };
     void enter(uint32_t row);
-    void turn_normals(raytrace::TrianglePoints& at, int i) const;
     const uint32_t* corners(uint32_t primitive) const;
 
     const Scene& scene_;

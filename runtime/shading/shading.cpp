@@ -134,6 +134,9 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     objects_->gathers.begin_frame(threads.size());
     objects_->prints.begin_frame(threads.size());
     objects_->bakes.begin_frame(threads.size());
+    frame.lights_shoot = std::ranges::any_of(frame.scene.lights, [&](const LightSource& light) {
+        return shoots_rays(*frame.scene.shader_instances[light.look]);
+    });
     update_looks(frame.scene, frame.stop);
     objects_->lights.begin_frame();
     set_view(frame);

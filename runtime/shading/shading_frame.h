@@ -43,6 +43,7 @@ struct ShadingFrame {
     uint32_t split = 0;
     bool footprints = true;  // some shader reads those of hits
     bool any_transparent = false;
+    bool lights_shoot = false;  // some light's kernel shoots rays
     // Where rays that meet nothing end: the camera's far clip where its file has one, else the far
     // side of the scene: the eye's distance from the centre plus the diagonal.
     float far_distance = 0;

@@ -5,9 +5,7 @@
 // above every smooth surface with those normals that bends one way. The facet is left only as far
 // as it looks away from the light: where it sees the light, it shades nothing of itself.
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -19,7 +17,6 @@ namespace kinora {
 
 namespace {
 
-constexpr float kSeesLight = 0.1f;  // cosine between facet and light above which it is not left
 constexpr float kFlat = 1e-4f;      // a plane that rises less, a unit of way, is the facet's
 
 vec3 unit(vec3 v) {
@@ -35,14 +32,13 @@ void SmoothSurface::enter(uint32_t row) {
     const Shape& shape = scene_.shapes[surface.shape];
     const MeshGroup& group = scene_.meshes[shape.mesh].groups[surface.group];
     row_ = {row,
-            shape.kind == raytrace::GeometryKind::Instanced,
             group.normal_corners,
             group.triangles,
             shape.rest_normals,
             shape.rest_positions,
             mat3(1.0f),
             mat3(1.0f)};
-    if (!row_.instanced) return;
+    if (shape.kind != raytrace::GeometryKind::Instanced) return;
     row_.from_rest = mat3(dmat3(shape.world));
     row_.normals_from_rest = normal_matrix(shape.world, shape.mirrored);
 }
@@ -54,47 +50,6 @@ inline const uint32_t* SmoothSurface::corners(uint32_t primitive) const {
     const uint32_t* corner = &row_.normal_corners[first];
     const bool good = corner[0] < entries && corner[1] < entries && corner[2] < entries;
     return good ? corner : nullptr;
-}
-
-// From the rest of an instance to where it stands.
-void SmoothSurface::turn_normals(raytrace::TrianglePoints& at, int i) const {
-    for (auto& corners_of : at.corner) {
-        float* n = corners_of[i];
-        const vec3 turned = row_.normals_from_rest * vec3(n[0], n[1], n[2]);
-        for (int c = 0; c < 3; ++c) n[c] = turned[c];
-    }
-}
-
-uint32_t SmoothSurface::ways_from(const raytrace::HitBatch& hits, const uint32_t* hit,
-                                  uint32_t lanes, raytrace::LeavingRays& rays) {
-    raytrace::TrianglePoints at;
-    if (lanes != 0xffffu) at = {};
-    uint32_t smooth = 0;
-    for (uint32_t left = lanes; left; left &= left - 1) {
-        const int i = std::countr_zero(left);
-        const uint32_t row = hits.instance[hit[i]];
-        if (row != row_.number && row != kNone) enter(row);
-        const uint32_t* corner = row == kNone ? nullptr : corners(hits.primitive[hit[i]]);
-        at.u[i] = hits.u[hit[i]];
-        at.v[i] = hits.v[hit[i]];
-        for (size_t k = 0; corner && k < 3; ++k)
-            std::memcpy(at.corner[k][i], &row_.normals[corner[k]], sizeof(vec4));
-        if (!corner)
-            for (auto& corners_of : at.corner) std::fill_n(corners_of[i], 4, 0.0f);
-        else if (row_.instanced)
-            turn_normals(at, i);
-        smooth |= uint32_t(corner != nullptr) << i;
-    }
-    smooth &= ~raytrace::point_kernels().sees_light(at, rays, kSeesLight);
-    uint32_t lifted = 0;
-    for (; smooth; smooth &= smooth - 1) {
-        const int i = std::countr_zero(smooth);
-        vec3 to_light(rays.way[0][i], rays.way[1][i], rays.way[2][i]);
-        const vec3 up = way_from(hits, hit[i], to_light);
-        for (int c = 0; c < 3; ++c) rays.up[c][i] = up[c];
-        lifted |= uint32_t(up != vec3(0.0f)) << i;
-    }
-    return lifted;
 }
 
 vec3 SmoothSurface::way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light) {

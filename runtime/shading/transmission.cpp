@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <numeric>
 #include <utility>
 
 #include "raytrace/hits.h"
@@ -115,42 +116,49 @@ void Transmission::pass_ends(const raytrace::RayBatch& rays, const raytrace::Hit
     memory.arena.release(mark);
 }
 
-namespace {
-
-// Leaves those rays for which keep(ray) is true, in their order.
-template <class Keep>
-void keep_rays(raytrace::RayBatch& rays, Keep&& keep) {
-    size_t kept = 0;
-    for (size_t r = 0; r < rays.count; ++r)
-        if (keep(r)) raytrace::move_ray(rays, kept++, r);
-    rays.count = kept;
-}
-
-}  // namespace
-
 void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
                         std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
+    uint32_t all[kGridPoints];
     std::fill(through.begin(), through.end(), vec3(1.0f));
+    std::iota(all, all + rays.count, 0u);
+    std::span<const uint32_t> which(all, rays.count);
     // Most rays meet nothing at all. Where objects have volumes, such a ray may run through one.
     if (frame_.any_transparent && frame_.scene.volumes.empty()) {
         raytrace::occluded(frame_.scene.accel, rays, raytrace::kMaskAll, blocked,
                            memory.counters.trace);
-        keep_rays(rays, [&](size_t r) { return blocked[r] != 0; });
+        size_t met = 0;
+        for (uint32_t r = 0; r < rays.count; ++r) {
+            all[met] = r;
+            met += blocked[r];
+        }
+        which = which.first(met);
     }
-    pass_blocked(rays, from, memory, through);
+    pass_blocked(rays, which, from, memory, through);
+}
+
+void Transmission::pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which,
+                                const RayTag& from, ThreadMemory& memory,
+                                std::span<vec3> through) {
+    uint8_t blocked[kGridPoints];
+    raytrace::occluded(frame_.scene.accel, rays, which, raytrace::kMaskOpaque, blocked,
+                       memory.counters.trace);
+    size_t kept = 0;
+    for (size_t i = 0; i < which.size(); ++i) {
+        if (blocked[i])
+            through[rays.slot[which[i]]] = vec3(0.0f);
+        else if (frame_.any_transparent)
+            raytrace::move_ray(rays, kept++, which[i]);
+    }
+    rays.count = kept;
+    if (kept > 0) pass_transparent(rays, from, memory, through.data());
 }
 
 void Transmission::pass_blocked(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
                                 std::span<vec3> through) {
-    uint8_t blocked[kGridPoints];
-    raytrace::occluded(frame_.scene.accel, rays, raytrace::kMaskOpaque, blocked,
-                       memory.counters.trace);
-    for (size_t r = 0; r < rays.count; ++r)
-        if (blocked[r]) through[rays.slot[r]] = vec3(0.0f);
-    if (!frame_.any_transparent) return;
-    keep_rays(rays, [&](size_t r) { return !blocked[r]; });
-    pass_transparent(rays, from, memory, through.data());
+    uint32_t all[kGridPoints];
+    std::iota(all, all + rays.count, 0u);
+    pass_blocked(rays, {all, rays.count}, from, memory, through);
 }
 
 // ---- opacity of what rays meet ------------------------------------------------------------------
@@ -245,36 +253,48 @@ size_t ShadowQueue::choose(const LightPoints& at, const SentLight& light) {
 
 namespace {
 
-// Elements of a column, which often lie one behind the other.
-void pick(const float* column, std::span<const uint32_t> points, float* to) {
-    const bool dense = points.back() - points.front() == points.size() - 1;
-    if (dense && points.size() == raytrace::kPacket)
-        std::memcpy(to, column + points.front(), raytrace::kPacket * sizeof(float));
-    else if (dense)
-        std::copy_n(column + points.front(), points.size(), to);
-    else
-        for (size_t j = 0; j < points.size(); ++j) to[j] = column[points[j]];
+// Rows of columns to lanes from `first` on.
+void pick(std::span<const raytrace::KeptColumn> columns, std::span<const uint32_t> points,
+          size_t first) {
+    if (points.size() == raytrace::kPacket)
+        return raytrace::point_kernels().pick(points.data(), columns.data(), columns.size());
+    for (const raytrace::KeptColumn& column : columns) {
+        const auto* from = static_cast<const uint32_t*>(column.from);
+        auto* to = static_cast<uint32_t*>(column.to) + first;
+        for (size_t j = 0; j < points.size(); ++j) std::memcpy(to + j, from + points[j], sizeof(*to));
+    }
 }
 
 }  // namespace
 
 void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight& light,
                        std::span<const uint32_t> points) {
+    static_assert(raytrace::kPacket == kColumnPoints);
     raytrace::LeavingRays& rays = fresh_.rays;
     const size_t first = size_t(fresh_.count), end = first + points.size();
-    static_assert(raytrace::kPacket == kColumnPoints);
-    float L[3][raytrace::kPacket] = {}, way[3][raytrace::kPacket];
+    alignas(64) float L[3][raytrace::kPacket] = {}, N[3][raytrace::kPacket] = {};
+    raytrace::KeptColumn columns[16];
     for (size_t k = 0; k < 3; ++k) {
-        pick(at.accel[k], points, rays.P[k] + first);
-        pick(at.error[k], points, rays.error[k] + first);
-        pick(at.Ng[k], points, rays.Ng[k] + first);
-        pick(light.L[k], points, L[k]);
+        columns[k] = {at.accel[k], rays.P[k]};
+        columns[3 + k] = {at.error[k], rays.error[k]};
+        columns[6 + k] = {at.Ng[k], rays.Ng[k]};
+        columns[9 + k] = {light.L[k], L[k]};
+        columns[12 + k] = {at.N[k], N[k]};
         std::fill(rays.up[k] + first, rays.up[k] + end, 0.0f);
         std::fill(rays.short_of[k] + first, rays.short_of[k] + end, 0.0f);
     }
-    float* const to[3] = {way[0], way[1], way[2]};
-    column_kernels().turn(&accel_from_camera_[0][0], {{L[0], L[1], L[2]}}, to);
-    for (size_t k = 0; k < 3; ++k) std::copy_n(way[k], points.size(), rays.way[k] + first);
+    columns[15] = {at.normals && of_surface_ ? at.normals : static_cast<const void*>(at.zeros),
+                   fresh_.normals};
+    pick(columns, points, first);
+    const float* M = &accel_from_camera_[0][0];
+    float* const of_L[3] = {L[0], L[1], L[2]};
+    float* const of_N[3] = {N[0], N[1], N[2]};
+    column_kernels().turn(M, {{L[0], L[1], L[2]}}, of_L);
+    column_kernels().turn(M, {{N[0], N[1], N[2]}}, of_N);
+    for (size_t k = 0; k < 3; ++k) {
+        std::copy(L[k] + first, L[k] + end, rays.way[k] + first);
+        std::copy(N[k] + first, N[k] + end, fresh_.N[k] + first);
+    }
     for (size_t j = 0; j < points.size(); ++j) {
         const size_t lane = first + j;
         rays.endless[lane] = light.solar;
@@ -283,7 +303,7 @@ void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight&
         if (!light.samples || light.solar) continue;
         const vec3 off = before_sample(light.samples->hits, points[j],
                                        {rays.P[0][lane], rays.P[1][lane], rays.P[2][lane]},
-                                       {way[0][j], way[1][j], way[2][j]});
+                                       {L[0][lane], L[1][lane], L[2][lane]});
         for (int k = 0; k < 3; ++k) rays.short_of[k][lane] = off[k];
     }
     fresh_.count = int(end);
@@ -345,6 +365,21 @@ void ShadowQueue::settle(const Packet& packet, uint32_t lanes, uint32_t blocked)
     if (rest_->rays.count + raytrace::kPacket > kGridPoints) pass_rest();
 }
 
+// Finds `up` of the rays of fresh_ that have a bit; the bits of those where it is not 0.
+uint32_t ShadowQueue::lift(uint32_t lanes) {
+    const float* const N[3] = {fresh_.N[0], fresh_.N[1], fresh_.N[2]};
+    lanes &= ~raytrace::point_kernels().sees_light(fresh_.rays, N, fresh_.normals, kSeesLight);
+    uint32_t lifted = 0;
+    for (; lanes; lanes &= lanes - 1) {
+        const int i = std::countr_zero(lanes);
+        const auto& way = fresh_.rays.way;
+        const vec3 up = smooth_.way_from(*hits_, fresh_.hit[i], {way[0][i], way[1][i], way[2][i]});
+        for (int c = 0; c < 3; ++c) fresh_.rays.up[c][i] = up[c];
+        lifted |= uint32_t(up != vec3(0.0f)) << i;
+    }
+    return lifted;
+}
+
 // Of rays that leave a smooth surface, those that nothing opaque blocks wait for others: whether
 // the way there is free is asked for sixteen at once.
 void ShadowQueue::flush() {
@@ -355,8 +390,7 @@ void ShadowQueue::flush() {
         const auto& Ng = fresh_.rays.Ng;
         on_facets |= uint32_t((Ng[0][j] != 0) | (Ng[1][j] != 0) | (Ng[2][j] != 0)) << j;
     }
-    const uint32_t lifted =
-        on_facets ? smooth_.ways_from(*hits_, fresh_.hit, on_facets, fresh_.rays) : 0;
+    const uint32_t lifted = on_facets ? lift(on_facets) : 0;
     aim(fresh_);
     const uint32_t blocked = block(all, mask_);
     uint32_t opaque = blocked;

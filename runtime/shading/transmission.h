@@ -28,6 +28,9 @@ class Transmission {
                           vec3* through);
 
   private:
+    // The same of the rays of these numbers, which ascend; the others pass.
+    void pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which, const RayTag& from,
+                      ThreadMemory& memory, std::span<vec3> through);
     void pass_ends(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
                    const RayTag& ray, ThreadMemory& memory, vec3* through);
     void opacity(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory, vec3* Oi);
@@ -60,6 +63,8 @@ class ShadowQueue final : public LightShadows {
     // Up to sixteen rays, in accel space.
     struct Packet {
         raytrace::LeavingRays rays{};
+        float N[3][raytrace::kPacket] = {};  // of the smooth surface; what is known of it
+        uint32_t normals[raytrace::kPacket] = {};
         uint32_t hit[raytrace::kPacket];
         Target target[raytrace::kPacket];
         int count = 0;
@@ -74,6 +79,7 @@ class ShadowQueue final : public LightShadows {
     uint32_t block(uint32_t lanes, uint32_t mask);
     void move(const Packet& from, int lane, Packet& to);
     void settle(const Packet& packet, uint32_t lanes, uint32_t blocked);
+    uint32_t lift(uint32_t lanes);
     void flush();
     void flush_lifted();
     void flush_lowered();

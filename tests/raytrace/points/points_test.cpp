@@ -234,6 +234,47 @@ TEST(PointKernels, GiveTheSameBits) {
         }
 }
 
+// Every set of lanes: those that are kept come in their order, from `at` on.
+TEST_P(EachKernel, KeepsTheRowsOfTheLanes) {
+    uint32_t rows[2][48], kept[2][64];
+    for (uint32_t i = 0; i < 48; ++i) rows[0][i] = i, rows[1][i] = 1000 + i;
+    const KeptColumn columns[] = {{rows[0], kept[0]}, {rows[1], kept[1]}};
+    for (uint32_t lanes = 1; lanes < 0x10000; ++lanes) {
+        const size_t first = lanes % 3 * 16, at = lanes % 33;
+        for (auto& row : kept) std::fill(std::begin(row), std::end(row), 7u);
+        kernels().keep(lanes, columns, 2, first, at);
+        size_t next = at;
+        for (uint32_t lane = 0; lane < 16; ++lane) {
+            if (!(lanes >> lane & 1)) continue;
+            ASSERT_EQ(kept[0][next], first + lane) << lanes;
+            ASSERT_EQ(kept[1][next++], 1000 + first + lane) << lanes;
+        }
+        if (at > 0) ASSERT_EQ(kept[1][at - 1], 7u);
+        ASSERT_EQ(kept[1][at + 16], 7u);
+    }
+}
+
+// Numbers one behind the other, some left out, and far apart.
+TEST_P(EachKernel, PicksRowsByTheirNumbers) {
+    std::vector<uint32_t> column[2];
+    for (uint32_t i = 0; i < 1024; ++i) column[0].push_back(i), column[1].push_back(5000 + i);
+    std::mt19937 random(5);
+    for (uint32_t step : {1u, 2u, 3u, 60u})
+        for (int run = 0; run < 100; ++run) {
+            uint32_t rows[kPoints], found[2][kPoints];
+            rows[0] = random() % (1024 - 16 * step);
+            for (size_t i = 1; i < kPoints; ++i)
+                rows[i] = rows[i - 1] + 1 + (step > 1 ? random() % (step - 1) : 0);
+            const KeptColumn columns[] = {{column[0].data(), found[0]},
+                                          {column[1].data(), found[1]}};
+            kernels().pick(rows, columns, 2);
+            for (size_t i = 0; i < kPoints; ++i) {
+                ASSERT_EQ(found[0][i], rows[i]);
+                ASSERT_EQ(found[1][i], 5000 + rows[i]);
+            }
+        }
+}
+
 // Where a kernel says that the facet surely sees the light, so do exact unit normals.
 TEST_P(EachKernel, SeesLightOnlyWhereItSurelyDoes) {
     constexpr float kCosine = 0.1f;
@@ -261,7 +302,21 @@ TEST_P(EachKernel, SeesLightOnlyWhereItSurelyDoes) {
                 for (int c = 0; c < 3; ++c) corner[i][c] *= off / std::sqrt(square);
             }
         }
-        const uint32_t bits = kernels().sees_light(at, from, kCosine);
+        float N[3][kPoints];
+        uint32_t normals[kPoints];
+        for (size_t i = 0; i < kPoints; ++i) {
+            const float weight[] = {1 - at.u[i] - at.v[i], at.u[i], at.v[i]};
+            float square = 0;
+            for (int c = 0; c < 3; ++c) {
+                N[c][i] = 0;
+                for (int k = 0; k < 3; ++k) N[c][i] += weight[k] * at.corner[k][i][c];
+                square += N[c][i] * N[c][i];
+            }
+            for (auto& row : N) row[i] /= std::sqrt(square);
+            normals[i] = i == 0 ? kOneNormal : square > 0.25f ? kUnitNormals : 0;
+        }
+        const float* const rows[3] = {N[0], N[1], N[2]};
+        const uint32_t bits = kernels().sees_light(from, rows, normals, kCosine);
         for (size_t i = 0; i < kPoints; ++i) {
             const Real weight[] = {1 - Real(at.u[i]) - Real(at.v[i]), at.u[i], at.v[i]};
             Real N[3] = {}, facet = 0, light = 0, cosine = 0, square = 0;

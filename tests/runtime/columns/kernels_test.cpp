@@ -111,7 +111,8 @@ TEST_P(EachColumnKernel, MixesNormalsAsGlmDoes) {
                 for (float& x : corner[run % kColumnPoints]) x = 0;
         const mat3 m = random.matrix();
         Rows out;
-        const uint32_t bad = kernels().mix_normals(&m[0][0], at, out.to);
+        uint32_t kinds[kColumnPoints];
+        const uint32_t bad = kernels().mix_normals(&m[0][0], at, out.to, kinds);
         unsound |= bad;
         for (size_t i = 0; i < kColumnPoints; ++i) {
             vec4 n[3];
@@ -138,12 +139,39 @@ TEST_P(EachColumnKernel, MixesTwoAxesByHand) {
     }
     const float m[9] = {0, 0, 1, 1, 0, 0, 0, 1, 0};
     Rows out;
-    EXPECT_EQ(kernels().mix_normals(m, at, out.to), 0u);
+    uint32_t kinds[kColumnPoints];
+    EXPECT_EQ(kernels().mix_normals(m, at, out.to, kinds), 0u);
     for (size_t i = 0; i < kColumnPoints; ++i) {
         EXPECT_FLOAT_EQ(out[i].x, 0.70710678f);
         EXPECT_EQ(out[i].y, 0);
         EXPECT_FLOAT_EQ(out[i].z, 0.70710678f);
     }
+}
+
+// Place 0: three unit normals; 1: the same normal thrice; 2: one that is too long; 3: two that are
+// opposite, so that their mixture is short.
+TEST_P(EachColumnKernel, KnowsWhatNormalsSayOfTheSurface) {
+    CornerNormals at{};
+    for (size_t i = 0; i < kColumnPoints; ++i) {
+        at.u[i] = at.v[i] = 0.25f;
+        for (int k = 0; k < 3; ++k) at.corner[k][i][2] = 1;
+    }
+    auto set = [&](size_t i, int k, float x, float z) {
+        at.corner[k][i][0] = x;
+        at.corner[k][i][2] = z;
+    };
+    set(0, 1, 0.6f, 0.8f);
+    set(2, 1, 0.6f, 0.802f);
+    set(3, 0, 0, -1);
+    set(3, 1, 0.6f, 0.8f);
+    const float one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    Rows out;
+    uint32_t kinds[kColumnPoints];
+    EXPECT_EQ(kernels().mix_normals(one, at, out.to, kinds), 0u);
+    EXPECT_EQ(kinds[0], raytrace::kUnitNormals);
+    EXPECT_EQ(kinds[1], raytrace::kOneNormal);
+    EXPECT_EQ(kinds[2], 0u);
+    EXPECT_EQ(kinds[3], 0u);
 }
 
 // The definition, a number at a time; layers from 64 on lie in the upper half.
