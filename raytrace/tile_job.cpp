@@ -209,6 +209,13 @@ void TileJob::shade(const HitBatch& hits, Ends ends) {
 }
 
 void TileJob::mend(const HitBatch& hits) {
+    const float* shaded[6];
+    for (size_t k = 0; k < 6; ++k) shaded[k] = m_.shaded[k].data();
+    // Sixteen results, those behind the last included.
+    auto all_finite = [&](size_t first) {
+        return kernels_.finite(shaded, 6, first) &&
+               kernels_.finite(m_.aov_pointers.data(), m_.aov_pointers.size(), first);
+    };
     for (size_t first = 0; first < hits.count; first += kPacket) {
         if (all_finite(first)) continue;
         for (size_t k = first; k < std::min<size_t>(first + kPacket, hits.count); ++k) {
@@ -218,20 +225,6 @@ void TileJob::mend(const HitBatch& hits) {
                 std::min(m_.counters.non_finite_geometry, hits.geometry[k]);
         }
     }
-}
-
-// Of sixteen results from `first` on, those behind the last included.
-bool TileJob::all_finite(size_t first) const {
-    float zero[kPacket] = {};  // NaN if anything is not finite
-    auto look = [&](const std::vector<float>& column) {
-        const float* v = column.data() + first;
-        for (int i = 0; i < kPacket; ++i) zero[i] += v[i] * 0.0f;
-    };
-    for (const auto& column : m_.shaded) look(column);
-    for (const auto& column : m_.shaded_aov) look(column);
-    bool finite = true;
-    for (float z : zero) finite &= z == 0;
-    return finite;
 }
 
 // Replaces what is not finite; returns whether all was finite. Zero gives a black, covered point:

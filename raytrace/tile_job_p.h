@@ -80,7 +80,6 @@ class TileJob {
     void shade(const HitBatch& hits, Ends ends = Ends::Surfaces);
     void shade_misses(const HitBatch& hits);
     void mend(const HitBatch& hits);
-    bool all_finite(size_t first) const;
     bool mend_hit(size_t k);
     bool shows_first(const HitBatch& hits, size_t k) const;
     void keep_aovs(const HitBatch& hits);

@@ -83,6 +83,8 @@ struct PixelKernels {
     // through the pixels' centres.
     void (*rays)(const PixelView& view, const PixelSet& pixels, const SampleBits* samples, size_t n,
                  const FilterTable* filter, const PixelRays& out);
+    // Whether sixteen numbers of each column, from `first` on, are finite.
+    bool (*finite)(const float* const* columns, size_t count, size_t first);
     // Lays the hits behind what the samples show. A bit for each sample that still lets more than
     // `least` through in some component.
     uint32_t (*lay)(const LaidHits& hits, float least, float* const color[3],

@@ -230,6 +230,17 @@ uint32_t lay(const LaidHits& hits, float least, float* const color[3], float* co
     return all;
 }
 
+bool finite(const float* const* columns, size_t count, size_t first) {
+    float zero[kLaid] = {};  // NaN if anything is not finite
+    for (size_t c = 0; c < count; ++c) {
+        const float* v = columns[c] + first;
+        for (size_t i = 0; i < kLaid; ++i) zero[i] += v[i] * 0.0f;
+    }
+    uint32_t good = 1;
+    for (size_t i = 0; i < kLaid; ++i) good &= uint32_t(zero[i] == 0);
+    return good != 0;
+}
+
 KINORA_INLINE void load(const float* from, size_t count, FourDoubles& to) {
     FourFloats floats{};
     if (count == 4)
@@ -302,7 +313,7 @@ void add(size_t pixels, size_t n, const float* const color[3], const float* cons
 }  // namespace
 
 extern const PixelKernels KINORA_KERNEL_TABLE(Pixels);
-const PixelKernels KINORA_KERNEL_TABLE(Pixels) = {KINORA_INSTRUCTION_SET, scrambles, rays, lay,
-                                                  add};
+const PixelKernels KINORA_KERNEL_TABLE(Pixels) = {KINORA_INSTRUCTION_SET, scrambles, rays,
+                                                  finite, lay, add};
 
 }  // namespace kinora::raytrace

@@ -423,6 +423,21 @@ TEST(PixelKernels, OfSumsGiveTheSameBits) {
 }
 
 // What sixteen samples show behind a layer: in double, sample by sample.
+TEST_P(EachKernel, TellsWhetherNumbersAreFinite) {
+    constexpr float kEndless = std::numeric_limits<float>::infinity();
+    constexpr float kMost = std::numeric_limits<float>::max();
+    for (size_t place = 0; place < 2 * kLaid; ++place)
+        for (float x : {kMost, -kMost, 1e-40f, kEndless, -kEndless, NAN})
+            for (size_t column = 0; column < 2; ++column) {
+                float rows[2][2 * kLaid] = {};
+                const float* const columns[] = {rows[0], rows[1]};
+                rows[column][place] = x;
+                const bool within = place >= kLaid;
+                EXPECT_EQ(kernels().finite(columns, 2, kLaid), !within || std::isfinite(x));
+                EXPECT_EQ(kernels().finite(columns, 0, kLaid), true);
+            }
+}
+
 TEST_P(EachKernel, LaysHitsBehindWhatSamplesShow) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> number(-0.5f, 1.5f);
