@@ -54,7 +54,10 @@ bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& fi
     prepare_planes(scene, film);
     scene.shading->stop_by(settings.stop);
     scene.shading->show(settings.insight);
-    if (settings.insight.costs) settings.insight.costs->start(scene.view.width, scene.view.height);
+    const ShadingInsight& insight = settings.insight;
+    if (insight.costs) insight.costs->start(scene.view.width, scene.view.height);
+    if (insight.first)
+        insight.first->start(scene.view.width, scene.view.height, scene.shader_instances.size());
     {
         StageScope stage(Stage::Kernels);
         scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
@@ -64,6 +67,7 @@ bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& fi
     if (integrator.background) *integrator.background /= gain;  // it is no part of the scene
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film, integrator,
                                      scene.scratch, counters, progress);
+    if (insight.first) insight.first->finish();
     StageScope stage(Stage::Film);
     if (gain != 1)
         for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);

@@ -70,6 +70,7 @@ std::vector<std::string> lines_of(const PlayerState& state, const ShaderDocument
     line(picture.wipe_at != plain.wipe_at, "wipe", fmt::format("{}", picture.wipe_at));
     line(picture.hold_rate != plain.hold_rate, "hold_rate", fmt::format("{}", picture.hold_rate));
     line(!picture.adapt, "adapt");
+    line(!picture.filter, "filter");
     line(!picture.refine, "refine");
     line(!state.selection.node.empty(), "select", state.selection.node);
     line(!document.material.empty(), "select_material", document.material);

@@ -131,6 +131,11 @@ CommandResult action_hold_rate(PlayerCore& core, const Arguments& a) {
     core.state.picture.hold_rate = a.number(0);
     return {};
 }
+CommandResult action_filter(PlayerCore& core, const Arguments&) {
+    core.state.picture.filter = !core.state.picture.filter;
+    return {};
+}
+
 CommandResult action_adapt(PlayerCore& core, const Arguments&) {
     core.state.picture.adapt = !core.state.picture.adapt;
     return {};

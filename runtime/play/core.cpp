@@ -277,6 +277,7 @@ ViewOrder PlayerCore::view_order() const {
     order.playing = state.time.playing;
     order.refine = state.picture.refine;
     order.adapt = state.picture.adapt;
+    order.filter = state.picture.filter;
     order.hold_rate = state.picture.hold_rate;
     return order;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <vector>
 
@@ -80,24 +81,6 @@ float likeness(const Place& a, const Place& b) {
     return std::max(facing * facing / (1 + 400 * apart * apart), kOther);
 }
 
-// A guide of the picture's size, or of half of it in both directions.
-struct Places {
-    const PictureGuide& guide;
-    int width, height;  // of the guide
-    int step;           // pixels of the picture in one of the guide
-
-    Places(const PictureGuide& of, int picture_width, int picture_height) : guide(of) {
-        bool whole = of.surface.size() == size_t(picture_width) * size_t(picture_height);
-        step = whole ? 1 : 2;
-        width = (picture_width + step - 1) / step;
-        height = (picture_height + step - 1) / step;
-    }
-    Place at(int x, int y) const {
-        size_t k = size_t(y / step) * size_t(width) + size_t(x / step);
-        return {guide.surface[k], guide.Ng[k], guide.depth[k]};
-    }
-};
-
 // The two small pixels beside a large one's center in one direction, and their shares.
 struct Neighbors {
     int index[2];
@@ -118,13 +101,117 @@ std::vector<Neighbors> neighbors(int small, int large) {
     return out;
 }
 
+// The cell of a row of `count` that lies at each pixel of a row of `pixels`.
+std::vector<int> cells(int count, int pixels) {
+    std::vector<int> out(static_cast<size_t>(pixels));
+    for (int x = 0; x < pixels; ++x)
+        out[size_t(x)] = std::min(int((x + 0.5) * count / pixels), count - 1);
+    return out;
+}
+
+Place place_at(const PictureGuide& guide, int x, int y) {
+    const size_t k = size_t(y) * size_t(guide.width) + size_t(x);
+    return {guide.surface[k], guide.Ng[k], guide.depth[k]};
+}
+
+using FourFloats = float __attribute__((vector_size(16)));
+
+FourFloats load(const vec4& from) {
+    FourFloats to;
+    std::memcpy(&to, &from, sizeof(to));
+    return to;
+}
+
+// One picture made of a smaller one.
+class Enlargement {
+  public:
+    Enlargement(const raytrace::Film& small, const PictureGuide& guide, raytrace::Film& out)
+        : small_(small),
+          guide_(guide),
+          out_(out),
+          columns_(neighbors(small.width, out.width)),
+          rows_(neighbors(small.height, out.height)),
+          guide_columns_(cells(guide.width, out.width)),
+          guide_rows_(cells(guide.height, out.height)),
+          centers_(small.rgba.size()),
+          alike_(small.rgba.size()) {
+        const std::vector<int> x_of = cells(guide.width, small.width),
+                               y_of = cells(guide.height, small.height);
+        each_row(small.height, [&](int y) {
+            for (int x = 0; x < small.width; ++x)
+                centers_[at(x, y)] = place_at(guide, x_of[size_t(x)], y_of[size_t(y)]);
+        });
+        each_row(small.height, [&](int y) { find_alike(y); });
+    }
+
+    void run() {
+        each_row(out_.height, [&](int y) { row(y); });
+    }
+
+  private:
+    template <class Body>
+    static void each_row(int rows, Body&& body) {
+        parallel_for(0, size_t(rows), 16, [&](size_t begin, size_t end) {
+            for (size_t y = begin; y < end; ++y) body(int(y));
+        });
+    }
+    size_t at(int x, int y) const { return size_t(y) * size_t(small_.width) + size_t(x); }
+
+    // Whether a small pixel, its right neighbor and the two below lie on one plane, which most do:
+    // there the guide decides nothing.
+    void find_alike(int y) {
+        constexpr float kAlike = 0.98f;
+        const int below = std::min(y + 1, small_.height - 1);
+        for (int x = 0; x < small_.width; ++x) {
+            const int right = std::min(x + 1, small_.width - 1);
+            const Place& here = centers_[at(x, y)];
+            alike_[at(x, y)] = likeness(here, centers_[at(right, y)]) > kAlike &&
+                               likeness(here, centers_[at(x, below)]) > kAlike &&
+                               likeness(here, centers_[at(right, below)]) > kAlike;
+        }
+    }
+
+    void row(int y) {
+        const Neighbors& v = rows_[size_t(y)];
+        vec4* to = &out_.at(0, y);
+        for (int x = 0; x < out_.width; ++x) {
+            const Neighbors& h = columns_[size_t(x)];
+            const size_t from[4] = {at(h.index[0], v.index[0]), at(h.index[1], v.index[0]),
+                                    at(h.index[0], v.index[1]), at(h.index[1], v.index[1])};
+            float weight[4];
+            for (int k = 0; k < 4; ++k) weight[k] = h.share[k & 1] * v.share[k >> 1];
+            if (!alike_[from[0]]) weigh(x, y, from, weight);
+            FourFloats sum = weight[0] * load(small_.rgba[from[0]]);
+            for (int k = 1; k < 4; ++k) sum += weight[k] * load(small_.rgba[from[k]]);
+            std::memcpy(&to[x], &sum, sizeof(sum));
+        }
+    }
+
+    void weigh(int x, int y, const size_t (&from)[4], float (&weight)[4]) const {
+        const Place here =
+            place_at(guide_, guide_columns_[size_t(x)], guide_rows_[size_t(y)]);
+        float weights = 0;
+        for (int k = 0; k < 4; ++k) {
+            weight[k] = (weight[k] + 1e-3f) * likeness(here, centers_[from[k]]);
+            weights += weight[k];
+        }
+        for (float& w : weight) w /= weights;
+    }
+
+    const raytrace::Film& small_;
+    const PictureGuide& guide_;
+    raytrace::Film& out_;
+    std::vector<Neighbors> columns_, rows_;
+    std::vector<int> guide_columns_, guide_rows_;
+    std::vector<Place> centers_;   // at the small pixels' centers
+    std::vector<uint8_t> alike_;
+};
+
 }  // namespace
 
 void make_guide(const Scene& scene, int width, int height, PictureGuide& guide) {
     size_t pixels = size_t(width) * size_t(height);
-    guide.surface.resize(pixels);
-    guide.Ng.resize(pixels);
-    guide.depth.resize(pixels);
+    guide.resize(width, height);
     raytrace::Camera camera = scene.view;
     // The same window in other pixels.
     camera.raster_dx *= double(camera.width) / width;
@@ -144,40 +231,26 @@ void make_guide(const Scene& scene, int width, int height, PictureGuide& guide) 
     });
 }
 
+void take_guide(const FirstHits& hits, const raytrace::Camera& camera, PictureGuide& guide) {
+    guide.resize(hits.width, hits.height);
+    const vec3 eye(camera.eye), forward(camera.forward);
+    parallel_for(0, hits.surface.size(), 4096, [&](size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k) {
+            guide.surface[k] = hits.surface[k];
+            guide.Ng[k] = vec3(0.0f);
+            guide.depth[k] = 0;
+            if (hits.surface[k] == kNone) continue;
+            const vec3 way = hits.P[k] - eye, Ng = hits.Ng[k];
+            guide.Ng[k] = glm::dot(Ng, camera.orthographic ? forward : way) > 0 ? -Ng : Ng;
+            guide.depth[k] = glm::dot(way, forward);
+        }
+    });
+}
+
 void enlarge(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
              raytrace::Film& out) {
     if (out.width != width || out.height != height) out.resize(width, height);
-    Places places(guide, width, height);
-    // At the small pixels' centers.
-    std::vector<Place> centers(small.rgba.size());
-    for (int y = 0; y < small.height; ++y)
-        for (int x = 0; x < small.width; ++x)
-            centers[size_t(y) * size_t(small.width) + size_t(x)] =
-                places.at(std::min(int((x + 0.5) * width / small.width), width - 1),
-                          std::min(int((y + 0.5) * height / small.height), height - 1));
-    std::vector<Neighbors> columns = neighbors(small.width, width);
-    std::vector<Neighbors> rows = neighbors(small.height, height);
-    auto row = [&](int y) {
-        const Neighbors& v = rows[size_t(y)];
-        for (int x = 0; x < width; ++x) {
-            const Neighbors& h = columns[size_t(x)];
-            Place here = places.at(x, y);
-            vec4 sum(0.0f);
-            float weights = 0;
-            for (int k = 0; k < 4; ++k) {
-                size_t from =
-                    size_t(v.index[k >> 1]) * size_t(small.width) + size_t(h.index[k & 1]);
-                float weight =
-                    (h.share[k & 1] * v.share[k >> 1] + 1e-3f) * likeness(here, centers[from]);
-                sum += weight * small.rgba[from];
-                weights += weight;
-            }
-            out.rgba[size_t(y) * size_t(width) + size_t(x)] = sum / weights;
-        }
-    };
-    parallel_for(0, size_t(height), 16, [&](size_t begin, size_t end) {
-        for (size_t y = begin; y < end; ++y) row(int(y));
-    });
+    Enlargement(small, guide, out).run();
 }
 
 }  // namespace kinora

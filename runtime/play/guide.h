@@ -4,15 +4,19 @@
 
 #include "runtime/play/picture.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/first_hits/first_hits.h"
 
 namespace kinora {
 
 // Of the scene as it stands, for a picture of that size with the scene's view.
 void make_guide(const Scene& scene, int width, int height, PictureGuide& guide);
 
-// `small` to a picture of that size. The guide has the same size, or half of it, rounded up, in
-// both directions. A pixel mixes the four small ones around it; those that lie on
-// another surface, face elsewhere or are at another depth count next to nothing.
+// The same of the first hits of a film that was just rendered: a guide of its size.
+void take_guide(const FirstHits& hits, const raytrace::Camera& camera, PictureGuide& guide);
+
+// `small` to a picture of that size, by a guide of any. A pixel mixes the four small ones around
+// it; those that lie on another surface, face elsewhere or are at another depth count next to
+// nothing.
 void enlarge(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
              raytrace::Film& out);
 

@@ -37,9 +37,9 @@ std::string text_of(const TimeState& time) {
 
 std::string text_of(const PictureState& p) {
     return fmt::format(
-        "{}x{}, {} stops, tone {}, aov '{}', false color {}, {} a second, adapts {}, refines {}, "
+        "{}x{}, {} stops, tone {}, aov '{}', false color {}, {} a second, adapts {}, filters {}, refines {}, "
         "wipe '{}' at {}, light '{}', quality '{}', rays {}",
-        p.width, p.height, p.exposure, int(p.tone), p.aov, p.false_color, p.hold_rate, p.adapt,
+        p.width, p.height, p.exposure, int(p.tone), p.aov, p.false_color, p.hold_rate, p.adapt, p.filter,
         p.refine, p.wipe, p.wipe_at, p.light, p.quality, p.rays);
 }
 

@@ -15,9 +15,17 @@ namespace kinora {
 
 // What the first surfaces are, pixel by pixel: of rays through the pixels' centers.
 struct PictureGuide {
+    int width = 0, height = 0;
     std::vector<uint32_t> surface;  // row of Scene::surfaces; kNone: nothing is there
     std::vector<vec3> Ng;           // world, towards the eye; length 1
     std::vector<float> depth;       // along the view's direction
+
+    void resize(int w, int h) {
+        const size_t pixels = size_t(width = w) * size_t(height = h);
+        surface.resize(pixels);
+        Ng.resize(pixels);
+        depth.resize(pixels);
+    }
 };
 
 struct Picture {
@@ -26,7 +34,7 @@ struct Picture {
     std::vector<uint8_t> rgba;  // to show: sRGB, not associated, rows from the top
     // As rendered: `film` is smaller than the picture where `scale` < 1. Linear, associated.
     raytrace::Film film;
-    PictureGuide guide;     // of the picture's size; empty where nothing was asked of it
+    PictureGuide guide;     // empty where nothing was asked of it
     PixelCosts costs;       // of the film's size; empty where nobody asked
     raytrace::Camera view;  // that made it
     dvec3 origin{0.0};      // of the view's space, in the world

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/frame/frame.h"
+#include "runtime/play/denoise/denoiser.h"
 #include "runtime/play/guide.h"
 #include "runtime/play/pace/pacer.h"
 #include "runtime/play/pace/patience.h"
@@ -51,9 +52,29 @@ struct RenderLoop::Memory {
     uint64_t serial = 0;
     raytrace::Film enlarged;
     Pacer pacer;
+    FirstHits first;  // of the picture in work
+    Denoiser denoiser;
+    // What the denoiser has seen: of that scene, with those shaders and that light.
+    std::shared_ptr<ShownScene> filtered;
+    double exposure = 0;
+    uint32_t only_light = kNone;
+    bool noisy = true;  // as far as is known
+    void follow(const Step& step);
     std::unique_ptr<Scene> closer;  // displaced meshes diced for the refined picture
     std::shared_ptr<ShownScene> closer_of;
 };
+
+// Pictures of anything else say nothing about the next one.
+void RenderLoop::Memory::follow(const Step& step) {
+    if (filtered == step.scene && exposure == step.order.exposure &&
+        only_light == step.order.only_light)
+        return;
+    filtered = step.scene;
+    exposure = step.order.exposure;
+    only_light = step.order.only_light;
+    denoiser.forget();
+    noisy = true;
+}
 
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
     : real_time_(real_time), wake_(std::move(wake)), memory_(std::make_unique<Memory>()) {
@@ -189,6 +210,7 @@ void RenderLoop::run() {
         for (SwappedShaders& shaders : swaps) {
             apply_swap(*step->scene->scene, std::move(shaders.swap));
             step->scene->diagnostics->files = std::move(shaders.files);
+            memory_->filtered.reset();
         }
         Outcome outcome;
         if (renders) plan(*step);
@@ -334,7 +356,14 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     settings.stop = &stop_;
     to->costs = {};
     if (shows_costs(step.display.aov)) measure_costs(settings, to->costs);
+    memory_->follow(step);
+    const bool filters = is_filtered(step);
+    if (filters || step.scale < 1) {
+        settings.insight.first = &memory_->first;
+        memory_->first.places = memory_->noisy || step.scale < 1;
+    }
     FrameStats stats;
+    double filter = 0;
     try {
         outcome.whole = step.pass == Pass::Refined
                             ? render_refined(step, settings, *to, stats)
@@ -356,13 +385,20 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         !outcome.whole,
         0};
     if (outcome.whole) {
+        if (filters) {
+            StageTimer timer(filter);
+            const bool known = memory_->first.places;
+            memory_->noisy = known ? memory_->denoiser.filter(*step.scene->scene, memory_->first,
+                                                              to->film)
+                                   : memory_->first.any_noise();
+        }
         Stopwatch present;
         to->scale = step.scale;
         to->samples = step.samples;
         to->refined = step.scale == 1 && step.samples == step.whole_samples &&
                       (step.pass == Pass::Refined || step.whole_samples == 1);
         finish_picture(step, *to);
-        times.present = present.ms();
+        times.present = present.ms() + filter;
         publish(std::move(to));
     }
     times.total = watch.ms();
@@ -371,7 +407,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     // A frame that was ended early says nothing, unless it was late already.
     if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
         memory_->pacer.aim_at(target);
-        memory_->pacer.add(times.total, times.animate + times.skin + times.refit + times.present);
+        memory_->pacer.add(times.total, times.animate + times.skin + times.refit + times.present - filter);
     }
     return outcome;
 }
@@ -417,6 +453,11 @@ bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings,
     return render(step, *shown.scene, fine, to, stats);
 }
 
+// The refined picture never is, nor those that no clock hurries.
+bool RenderLoop::is_filtered(const Step& step) const {
+    return real_time_ && step.order.filter && step.samples < step.whole_samples;
+}
+
 // The guide, the picture's own size, and what is displayed.
 void RenderLoop::finish_picture(const Step& step, Picture& to) {
     to.width = step.order.width;
@@ -428,6 +469,8 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     bool small = film->width != to.width || film->height != to.height;
     if (shows_guide(step.display.aov))
         make_guide(*step.scene->scene, to.width, to.height, to.guide);
+    else if (small && 2 * film->width >= to.width)
+        take_guide(memory_->first, to.view, to.guide);
     else if (small)  // a quarter of the rays says where the edges are
         make_guide(*step.scene->scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
     else

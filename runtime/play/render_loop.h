@@ -79,6 +79,7 @@ class RenderLoop {
                 FrameStats& stats);
     bool render_refined(const Step& step, const FrameSettings& settings, Picture& to,
                         FrameStats& stats);
+    bool is_filtered(const Step& step) const;
     void finish_picture(const Step& step, Picture& to);
     void redisplay(const Step& step);
     void answer(const Step& step);

@@ -46,6 +46,7 @@ struct PictureState {
     bool false_color = false;  // of the luminance or the AOV
     double hold_rate = 30;     // pictures a second while something moves
     bool adapt = true;         // fewer pixels where that rate is not reached
+    bool filter = true;        // the noise of pictures that are not refined
     bool refine = true;        // to the quality of kinora-render when nothing moves
     std::string quality;       // the preset; "" single options were put over one
     std::vector<std::pair<std::string, double>> prices;  // ms of the last refined picture of each

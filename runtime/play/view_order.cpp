@@ -20,7 +20,7 @@ bool ViewOrder::same_picture(const ViewOrder& o) const {
         camera.has_value() == o.camera.has_value() &&
         (camera ? camera_key(*camera) == camera_key(*o.camera) : camera_index == o.camera_index);
     return same_camera && follow == o.follow && frame == o.frame && width == o.width &&
-           height == o.height && exposure == o.exposure && only_light == o.only_light;
+           height == o.height && exposure == o.exposure && only_light == o.only_light && filter == o.filter;
 }
 
 std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {

@@ -27,7 +27,8 @@ struct ViewOrder {
     double exposure = 0;   // stops above the request's
     bool playing = false;  // the next one comes soon: not refined, and not cancelled for it
     bool refine = true;
-    bool adapt = true;  // fewer pixels while it moves
+    bool adapt = true;   // fewer pixels while it moves
+    bool filter = true;  // the noise of pictures that are not refined
     double hold_rate = 30;
 
     // The same picture, however it is displayed and refined.

@@ -73,6 +73,7 @@ void AreaLights::begin_frame() {
 
 void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight& light,
                         uint32_t sample, LightSamples& samples) const {
+    lit.note_random();
     const std::vector<float>& below = light.below;
     uint32_t number = uint32_t(lit.look->index);  // tells lights on one surface apart
     for (size_t i = 0; i < padded(at.count); ++i) {

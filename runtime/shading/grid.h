@@ -78,6 +78,17 @@ struct Grid {
     size_t lit_first = 0;       // whose point that of point 0 is
 
     size_t count() const { return points.size(); }
+
+    // Something is drawn at random for its points, or rays that shade what they meet are shot
+    // (FirstHits). A light's are those of the surface it lights.
+    void note_random() const {
+        const Grid& seen = lit ? *lit : *this;
+        if (frame.insight.first) frame.insight.first->note_random(seen.look->index, seen.depth);
+    }
+    void note_rays() const {
+        const Grid& seen = lit ? *lit : *this;
+        if (frame.insight.first) frame.insight.first->note_rays(seen.look->index, seen.depth);
+    }
 };
 
 // Takes rows for the wanted columns that are still null.

@@ -89,6 +89,7 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
         arena.release(part);
         grids = points = 0;
     };
+    if (hits.depth == 0 && frame_.insight.first) frame_.insight.first->take(hits);
     PixelCosts* costs = hits.depth == 0 ? frame_.insight.costs : nullptr;
     for (const LookRun& run : runs) {
         CostScope cost(costs, memory, hits, run.hits);

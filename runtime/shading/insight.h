@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/scene/scene.h"
+#include "runtime/shading/first_hits/first_hits.h"
 
 namespace kinora {
 
@@ -30,6 +31,7 @@ struct PixelCosts {
 struct ShadingInsight {
     uint32_t only_light = kNone;  // of Scene::lights: the others send nothing
     PixelCosts* costs = nullptr;  // started for the picture; null: nobody asks
+    FirstHits* first = nullptr;   // likewise
 };
 
 // Measures a part of the work of one thread, for its scope, and shares it out to the pixels of

@@ -136,6 +136,7 @@ void LaneRays::set_straight(int lane, vec3 unit) {
 }
 
 void LaneRays::set_cone(int lane, float angle) {
+    grid_.note_random();
     if (!wants_.cones || angle != angle_)
         cosine_ = Cone(vec3(0, 0, 1), angle, wants_.by_cosine).cosine;
     angle_ = angle;
@@ -408,6 +409,7 @@ void note_samples(RayCollector& collector, PlannedSamples& planned, SeenByRay* s
 
 void see_samples(Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan, const RayTag& tag,
                  NestedRays& nested, const AddSamples& add, const SumSamples& sum) {
+    grid.note_rays();
     RayCollector* collector = grid.collector;
     PlannedSamples planned(lanes, plan);
     if (collector && collector->collecting())

@@ -272,9 +272,11 @@ class RayServices::Passing {
         const RayStart& start = w.from;
         // The end keeps clear of the surface it may lie on, as the beginning does.
         vec3 way = (w.to.P + w.up_to) - (start.P + w.up_from);
-        if (float spread = lanes_.number(kSpread, lane); spread > 0)
+        if (float spread = lanes_.number(kSpread, lane); spread > 0) {
+            grid_.note_random();
             way =
                 Cone(way, spread, false).direction(w.sample, lanes_.seed(lane)) * glm::length(way);
+        }
         vec3 target = start.P + w.up_from + way;
         if (w.to.Ng != vec3(0.0f)) {
             vec3 off = w.up_to == vec3(0.0f) ? -way : w.up_to;

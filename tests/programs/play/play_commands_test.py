@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -100,6 +101,25 @@ class Session:
             self.window.recorded(self.record, "^panel commands$", closed + 1)
         self.window.recorded(self.record, rf"^{word}\b", done + 1)
 
+    def opened_menu(self, before, x):
+        """The first and the last line of the menu that opens under its title, as soon as it is drawn and stays. What
+        changes far below it, as a message that goes, is none of it."""
+        width, last = self.display.width, None
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            now = self.display.rgb()
+            changed = [y for y in range(24, self.display.height) if before[3 * (y * width + x):3 * (y * width + x) + 60] !=
+                       now[3 * (y * width + x):3 * (y * width + x) + 60]]
+            menu = changed[:1]
+            for y in changed:
+                if y - menu[-1] < 30:
+                    menu.append(y)
+            if menu and menu == last and menu[-1] - menu[0] > 30:
+                return menu[0], menu[-1]
+            last = menu
+            time.sleep(0.15)
+        raise AssertionError("no menu opens")
+
     def click_menu(self, path, menus):
         """The title is the menu's place among the words of the bar, the entry its place in the menu."""
         menu, entry = path.split("/")
@@ -116,11 +136,7 @@ class Session:
             gap = 0 if ink else gap + 1
         x = sum(words[list(menus).index(menu)]) // 2
         self.window.click(x, 10)
-        self.settle()
-        after = self.display.rgb()
-        changed = [y for y in range(24, self.display.height) if rgb[3 * (y * width + x):3 * (y * width + x) + 60] !=
-                   after[3 * (y * width + x):3 * (y * width + x) + 60]]
-        top, bottom = changed[0], changed[-1]
+        top, bottom = self.opened_menu(rgb, x)
         entries = menus[menu]
         self.window.click(x + 8, top + (bottom - top) * (2 * entries.index(entry) + 1) // (2 * len(entries)))
 

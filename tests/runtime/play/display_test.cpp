@@ -90,6 +90,7 @@ TEST(Enlarge, KeepsTheEdgesOfSurfaces) {
     for (int y = 0; y < kSmall; ++y)
         for (int x = 0; x < kSmall; ++x) small.at(x, y) = vec4(x < 4 ? 0.0f : 1.0f);
     PictureGuide guide;
+    guide.width = guide.height = kLarge;
     for (int k = 0; k < kLarge * kLarge; ++k) {
         guide.surface.push_back(k % kLarge < 16 ? 0 : 1);
         guide.Ng.push_back({0, 0, 1});
@@ -105,6 +106,7 @@ TEST(Enlarge, TakesAGuideOfHalfTheSize) {
     raytrace::Film small(4, 1), large;
     for (int x = 0; x < 4; ++x) small.at(x, 0) = vec4(x < 2 ? 0.25f : 0.75f);
     PictureGuide guide;
+    guide.width = 5, guide.height = 1;
     for (int k = 0; k < 5; ++k) {  // of 9 x 2 pixels
         guide.surface.push_back(k < 2 ? 0 : 1);
         guide.Ng.push_back({0, 0, 1});

@@ -11,10 +11,12 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <optional>
 
 #include "runtime/play/script.h"
 #include "runtime/programs/play/ui/ui.h"
+#include "runtime/programs/play/window/batch.h"
 #include "runtime/programs/play/window/input.h"
 #include "runtime/programs/play/window/keys.h"
 #include "runtime/programs/play/window/script_lines.h"
@@ -38,37 +40,6 @@ struct ImGuiScope {
         free_pointers();
         ImGui::DestroyContext();
     }
-};
-
-// The events of one turn. ImGui sees states, so that a button that goes down and up in a turn would
-// be lost, and the order of keys too: such an event waits for the next turn.
-class Batch {
-  public:
-    bool takes(const SDL_Event& event) {
-        switch (event.type) {
-            case SDL_MOUSEBUTTONDOWN:
-            case SDL_MOUSEBUTTONUP: {
-                const unsigned bit = 1u << (event.button.button & 31);
-                if (buttons_ & bit) return false;
-                buttons_ |= bit;
-                return true;
-            }
-            case SDL_KEYDOWN:
-                if (key_) return false;
-                key_ = event.key.keysym.scancode;
-                return true;
-            case SDL_KEYUP:
-                return event.key.keysym.scancode != key_;
-            case SDL_MOUSEMOTION:
-                return !buttons_;  // a press is where it was
-            default:
-                return true;
-        }
-    }
-
-  private:
-    unsigned buttons_ = 0;
-    int key_ = 0;
 };
 
 class WindowLoop {
@@ -133,7 +104,9 @@ class WindowLoop {
         else
             some = SDL_WaitEventTimeout(&event,
                                         std::max(1, static_cast<int>(std::ceil(seconds * 1000))));
-        Batch batch;
+        const ImGuiIO& io = ImGui::GetIO();
+        Batch batch(std::find(std::begin(io.MouseDown), std::end(io.MouseDown), true) !=
+                    std::end(io.MouseDown));
         if (held_) {
             event = *std::exchange(held_, std::nullopt);
             some = 1;
