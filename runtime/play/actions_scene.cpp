@@ -90,15 +90,22 @@ CommandResult action_deselect(PlayerCore& core, const Arguments&) {
 CommandResult action_param(PlayerCore& core, const Arguments& a) {
     const std::string& material = core.state.selection.material;
     if (material.empty()) return refused("no material is selected");
+    if (a.has(2) && a.text(2) != "further") return refused("param takes further, or nothing", 3);
     core.typing = false;
     SceneEdits edits = core.edits;
-    std::string target = material + "." + a.text(0);
+    const std::string target = material + "." + a.text(0);
     auto found = std::ranges::find_if(edits.params, [&](auto& p) { return p.first == target; });
     if (found == edits.params.end())
         edits.params.emplace_back(target, a.text(1));
     else
         found->second = a.text(1);
-    core.change_scene(std::move(edits));
+    if (a.has(2) && core.dragged == target) {  // undo takes the whole drag back
+        core.edits = std::move(edits);
+        core.rebuild();
+    } else {
+        core.change_scene(std::move(edits));
+    }
+    core.dragged = target;
     return {};
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "runtime/description/shader_library.h"
 #include "runtime/play/core_p.h"
@@ -58,6 +60,37 @@ size_t offset_of(const std::string& text, int line, int column) {
     }
     size_t end = std::min(text.find('\n', at), text.size());
     return std::min(at + size_t(std::max(column, 1) - 1), end);
+}
+
+// A text of a shader, and where in it a finding stands.
+struct PlaceInText {
+    std::string material;
+    size_t at = 0;
+};
+
+// How far into the decoded text a byte of the file is that the text stands in.
+size_t decoded_offset(const ShaderSourceText& source, uint32_t byte) {
+    std::ifstream in(source.file, std::ios::binary);
+    std::string head(byte, 0);
+    if (!in.read(head.data(), std::streamsize(head.size()))) return 0;
+    bool cdata = false;
+    return plain_text(std::string_view(head).substr(source.begin), cdata).size();
+}
+
+std::optional<PlaceInText> place_in_text(const PlayerCore& core, const FindingText& finding) {
+    const ShaderDocument& document = core.document;
+    if (!document.material.empty() && finding.file == document.name)
+        return PlaceInText{document.material, finding.begin};
+    if (!core.info || finding.file.empty()) return std::nullopt;
+    for (const MaterialInfo& material : core.info->materials) {
+        const ShaderSourceText* source = material.source.get();
+        if (!source) continue;
+        if (finding.file == source->name) return PlaceInText{material.id, finding.begin};
+        if (!source->embedded || finding.file != source->file) continue;
+        if (finding.begin >= source->begin && finding.begin <= source->end)
+            return PlaceInText{material.id, decoded_offset(*source, finding.begin)};
+    }
+    return std::nullopt;
 }
 
 bool is_trailing(char c) {  // of a character of several bytes
@@ -169,6 +202,31 @@ CommandResult action_find(PlayerCore& core, const Arguments& a) {
     document.caret = at;
     core.typing = false;
     return {};
+}
+
+// Into the editor where a shader's text is at fault, else to the file.
+CommandResult action_finding(PlayerCore& core, const Arguments& a) {
+    const std::vector<FindingText>& all = core.all_findings;
+    if (all.empty()) return refused("nothing was found: neither an error nor a warning");
+    if (a.has(0) && !(a.number(0) >= 1 && a.number(0) <= double(all.size())))
+        return refused(fmt::format("there are findings 1 to {}", all.size()), 1);
+    size_t& number = core.state.finding;
+    number = a.has(0) ? size_t(a.number(0)) : number % all.size() + 1;
+    if (number > all.size()) number = 1;
+    const FindingText finding = all[number - 1];
+    if (std::optional<PlaceInText> place = place_in_text(core, finding)) {
+        const std::string before = std::exchange(core.state.selection.material, place->material);
+        if (action_edit(core, Arguments(kNoWords)).done) {
+            core.document.caret = std::min(place->at, core.document.text.size());
+            core.show_panel("editor");
+            return {true, finding.message, 0};
+        }
+        core.state.selection.material = before;
+    }
+    if (finding.file.empty()) return {true, finding.message, 0};
+    core.state.place = {finding.file, finding.line, finding.column, finding.printed};
+    core.show_panel("source");
+    return {true, finding.message, 0};
 }
 
 CommandResult action_save(PlayerCore& core, const Arguments& a) {

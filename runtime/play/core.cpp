@@ -233,6 +233,7 @@ void PlayerCore::take_text(const ShownScene& shown) {
 // After undo: the text is what the edits say, or as it was read.
 void PlayerCore::restore_text() {
     typing = false;
+    dragged.clear();
     if (document.material.empty() || !info) return;
     std::string text, as_read;
     document.compiling = false;
@@ -255,6 +256,7 @@ void PlayerCore::restore_text() {
 
 void PlayerCore::merge_findings() {
     all_findings.clear();
+    add_new(all_findings, document.findings);
     add_new(all_findings, scene_findings);
     add_new(all_findings, frame_findings);
 }
@@ -391,8 +393,14 @@ void PlayerCore::change_scene(SceneEdits changed) {
     undo.push_back(edits);
     if (undo.size() > kMostUndo) undo.erase(undo.begin());
     redo.clear();
+    dragged.clear();
     edits = std::move(changed);
     rebuild();
+}
+
+void PlayerCore::show_panel(const std::string& name) {
+    if (std::ranges::find(state.panels, name) == state.panels.end()) state.panels.push_back(name);
+    state.raised = {name, state.raised.times + 1};
 }
 
 }  // namespace kinora

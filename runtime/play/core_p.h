@@ -37,7 +37,8 @@ struct PlayerCore {
     // Other threads have something new; wait_for() sleeps until then.
     std::mutex wake_mutex;
     std::condition_variable woken;
-    bool typing = false;  // the last change was of the text, by keys
+    bool typing = false;    // the last change was of the text, by keys
+    std::string dragged;    // the last change was of this parameter: MATERIAL.NAME
     bool news = false;
     bool files_changed = false;     // under the same mutex
     uint64_t explained_serial = 0;  // of the scene that was explained last
@@ -68,6 +69,7 @@ struct PlayerCore {
     void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
     void record_line(const Command& command, const std::vector<std::string>& arguments);
     void restore_text();
+    void show_panel(const std::string& name);  // opens it, in front
     void explain_scene();  // to PlayerState::explained, when the answer comes
     void keep(std::shared_ptr<const Picture> picture);  // to compare with; null: none
     void rebuild() { maker.edit(edits); }

@@ -39,6 +39,7 @@ void measure_costs(FrameSettings& settings, PixelCosts& costs) {
 // The film as the picture shows it, and rays over it.
 void show_film(const raytrace::Film& film, const DisplaySettings& settings, Picture& to) {
     display(film, to.guide, to.costs, settings, to.rgba);
+    to.numbers = number_scale(film, to.guide, to.costs, settings);
     if (settings.rays)
         draw_rays(settings.rays->rays, to.view, to.origin, to.width, to.height, to.rgba);
 }

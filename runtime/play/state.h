@@ -73,12 +73,28 @@ struct Selection {
 
 struct Explained;  // runtime/explain/explain.h
 
+// Where a finding leads that stands in no text of a shader.
+struct SourcePlace {
+    std::string file;
+    int line = 0, column = 0;  // from 1
+    std::string printed;       // the finding as programs print it
+};
+
+// The panel that comes to the front of its area whenever `times` grows.
+struct RaisedPanel {
+    std::string name;
+    int times = 0;
+};
+
 struct PlayerState {
     CameraState camera;
     TimeState time;
     PictureState picture;
     Selection selection;
     std::vector<std::string> panels;  // open ones, by name
+    RaisedPanel raised;
+    size_t finding = 0;  // the one that `finding` led to last, from 1
+    SourcePlace place;   // what the panel `source` shows
     // What the scene models and leaves out, of when it was asked for last; null: never.
     std::shared_ptr<const std::vector<Explained>> explained;
     int files_written = 0;

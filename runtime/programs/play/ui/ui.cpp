@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kinora::play {
 
@@ -20,7 +21,8 @@ constexpr PanelRow kPanels[] = {
     {"scene", "Scene", Area::Left, true},          {"parameters", "Parameters", Area::Left, true},
     {"lights", "Lights", Area::Left, false},       {"editor", "Shader", Area::Right, true},
     {"pixel", "Pixel", Area::Right, true},         {"library", "Library", Area::Right, false},
-    {"explained", "Explained", Area::Left, false}, {"findings", "Findings", Area::Bottom, false},
+    {"explained", "Explained", Area::Left, false}, {"source", "Source", Area::Right, false},
+    {"findings", "Findings", Area::Bottom, false},
     {"times", "Frame times", Area::Bottom, false},
 };
 // Open panels without a place in an area.
@@ -86,12 +88,16 @@ bool Ui::shows(Area area) const {
 
 // In a narrow window one side is shown: the one of the panel opened last, none at first.
 void Ui::follow_opened() {
+    const RaisedPanel& raised = context_.state().raised;
+    const bool raises = std::exchange(raised_, raised.times) != raised.times && followed_;
+    if (raises) context_.to_front = raised.name;
     std::vector<std::string> open;
     for (const PanelRow& row : kPanels)
         if (context_.open(row.name)) open.push_back(row.name);
     for (const PanelRow& row : kPanels) {
         const bool before = std::find(opened_.begin(), opened_.end(), row.name) != opened_.end();
-        if (!followed_ || before || !context_.open(row.name)) continue;
+        const bool comes = !before || (raises && raised.name == row.name);
+        if (!followed_ || !comes || !context_.open(row.name)) continue;
         if (context_.to_front.empty()) context_.to_front = row.name;
         if (row.area != Area::Bottom) narrow_side_ = row.area;
     }
@@ -109,6 +115,7 @@ void Ui::draw_panel(const char* name) {
     if (panel == "library") library_.draw(context_);
     if (panel == "editor") editor_.draw(context_);
     if (panel == "pixel") draw_pixel(context_);
+    if (panel == "source") source_.draw(context_);
     if (panel == "findings") draw_findings(context_);
     if (panel == "times") draw_times(context_);
 }
@@ -129,8 +136,7 @@ void Ui::draw_area(Area area, const Box& box) {
                                (!front.empty() && front == row.name && ImGui::GetFrameCount() < 3);
             std::string title = row.title;
             if (std::string_view(row.name) == "findings") {
-                const size_t count =
-                    context_.player.findings().size() + context_.player.shader().findings.size();
+                const size_t count = context_.player.findings().size();
                 if (count) title += fmt::format(" ({})", count);
             }
             title += fmt::format("###{}", row.name);
@@ -310,6 +316,7 @@ bool Ui::press(const std::string& key) {
                                        "Ctrl+Right", "Ctrl+Home",    "Ctrl+End"};
     if (wants_text() && std::find(std::begin(kOfText), std::end(kOfText), key) != std::end(kOfText))
         return false;
+    if (viewport_.may_fly() && !combined) return false;  // W A S D Q E
     const Command* command = find_command_of_key(key);
     if (!command) return false;
     if (*command->arguments && command->arguments[0] != '[') {

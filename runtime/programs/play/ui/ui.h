@@ -24,6 +24,8 @@ class Ui {
     // A key of the table by its name: "Ctrl+S". False: no row has it, or the keyboard belongs to a
     // text.
     bool press(const std::string& key);
+    // The keys of flight, see Viewport.
+    void steer(dvec3 steering) { viewport_.steer(steering); }
     // Whether letters are text at present.
     bool wants_text() const;
     // Seconds until it changes by itself; < 0: never.
@@ -54,12 +56,14 @@ class Ui {
     NodesPanel nodes_;
     LibraryPanel library_;
     EditorPanel editor_;
+    SourcePanel source_;
     Timeline timeline_;
     Viewport viewport_;
     Palette palette_;
     bool failed_ = false;
     std::vector<std::string> opened_;  // panels, as of the last turn
     bool followed_ = false;
+    int raised_ = 0;  // as the state has it
     std::optional<Area> narrow_side_;
 };
 
