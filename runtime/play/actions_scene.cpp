@@ -93,7 +93,10 @@ CommandResult action_param(PlayerCore& core, const Arguments& a) {
     if (a.has(2) && a.text(2) != "further") return refused("param takes further, or nothing", 3);
     core.typing = false;
     SceneEdits edits = core.edits;
-    const std::string target = material + "." + a.text(0);
+    CommandResult known;
+    const MaterialInfo* info = find_material_info(core, material, known);
+    if (!info) return known;
+    const std::string target = info->target + "." + a.text(0);
     auto found = std::ranges::find_if(edits.params, [&](auto& p) { return p.first == target; });
     if (found == edits.params.end())
         edits.params.emplace_back(target, a.text(1));
@@ -143,6 +146,7 @@ CommandResult action_redo(PlayerCore& core, const Arguments&) {
 
 CommandResult action_reload(PlayerCore& core, const Arguments&) {
     if (core.request.scene.empty()) return refused("there is no scene yet");
+    core.forget_stops();
     core.maker.open(core.request, core.edits, false);
     return {};
 }

@@ -27,6 +27,29 @@ const MaterialInfo* material_of(const PlayerCore& core, const std::string& id) {
     return found == core.info->materials.end() ? nullptr : &*found;
 }
 
+const SceneEdits::Text* text_of(const SceneEdits& edits, const std::string& id) {
+    auto found = std::ranges::find(edits.texts, id, &SceneEdits::Text::material);
+    return found == edits.texts.end() ? nullptr : &*found;
+}
+
+bool is_alone(const SceneEdits& edits, const std::string& id) {
+    const SceneEdits::Text* text = text_of(edits, id);
+    return text && text->alone;
+}
+
+// The first of those that wear the text; itself, where it wears one alone.
+std::string wearer_of(const PlayerCore& core, const MaterialInfo& material) {
+    const ShaderSourceText& own = *material.source;
+    if (own.file.empty() || is_alone(core.edits, material.id)) return material.id;
+    for (const MaterialInfo& other : core.info->materials) {
+        const ShaderSourceText* source = other.source.get();
+        if (source && source->file == own.file && source->begin == own.begin &&
+            source->end == own.end && !is_alone(core.edits, other.id))
+            return other.id;
+    }
+    return material.id;
+}
+
 // The new text is shown as soon as it compiles. Letters typed one after the other are one change.
 void show_text(PlayerCore& core, std::string text, bool typed) {
     ShaderDocument& document = core.document;
@@ -37,9 +60,9 @@ void show_text(PlayerCore& core, std::string text, bool typed) {
     document.dirty = true;
     SceneEdits edits = core.edits;
     auto found = std::ranges::find_if(
-        edits.texts, [&](const SceneEdits::Text& t) { return t.material == document.material; });
+        edits.texts, [&](const SceneEdits::Text& t) { return t.material == document.wearer; });
     if (found == edits.texts.end())
-        found = edits.texts.insert(edits.texts.end(), {document.material, document.name, "", 0});
+        found = edits.texts.insert(edits.texts.end(), {document.wearer, document.name, "", 0});
     found->text = document.text;
     found->version = document.version;
     if (typed && core.typing) {
@@ -110,13 +133,18 @@ CommandResult action_edit(PlayerCore& core, const Arguments& a) {
         ShaderDocument document;
         document.version = core.document.version;
         document.material = id;
+        document.wearer = wearer_of(core, *material);
         document.file = material->source->file;
         document.name = material->source->name;
         document.embedded = material->source->embedded;
         document.text = material->source->text;
         document.params = material->params;
-        for (const SceneEdits::Text& text : core.edits.texts)
-            if (text.material == id) document.text = text.text;
+        if (!text_of(core.edits, document.wearer) && text_of(core.edits, id))
+            document.wearer = id;  // a session says so
+        if (const SceneEdits::Text* edited = text_of(core.edits, document.wearer)) {
+            document.text = edited->text;
+            document.name = edited->file;
+        }
         document.dirty = document.text != material->source->text;
         core.document = std::move(document);
     }
@@ -136,6 +164,7 @@ CommandResult action_bind(PlayerCore& core, const Arguments& a) {
         return refused(unknown_name("shader of ours", name, ours), 1);
     if (CommandResult opened = action_edit(core, Arguments(kNoWords)); !opened.done) return opened;
     ShaderDocument& document = core.document;
+    document.wearer = document.material;
     document.text = library_shader_text(name);
     document.caret = 0;
     document.dirty = true;
@@ -143,7 +172,7 @@ CommandResult action_bind(PlayerCore& core, const Arguments& a) {
     ++document.version;
     core.typing = false;
     core.change_scene(edits_with_text(
-        core.edits, {document.material, document.name, document.text, document.version}));
+        core.edits, {document.material, document.name, document.text, document.version, true}));
     return {};
 }
 
@@ -249,7 +278,7 @@ CommandResult action_save(PlayerCore& core, const Arguments& a) {
     if (a.has(0)) return {true, file, 0};
     // From now on the file says it.
     std::erase_if(core.edits.texts,
-                  [&](const SceneEdits::Text& text) { return text.material == document.material; });
+                  [&](const SceneEdits::Text& text) { return text.material == document.wearer; });
     core.maker.open(core.request, core.edits, false);
     return {true, file, 0};
 }

@@ -49,6 +49,10 @@ struct PlayerCore {
     RenderLoop loop;
     SceneMaker maker;
     Thumbnails thumbnails;
+    TradeBoard board;
+    std::optional<ViewOrder> board_view;  // of the board's pictures
+    SceneEdits board_edits;
+    uint64_t noted = 0;  // the picture that was put on it last
 
     void wake();
     // Until it is so, or for so many seconds. Takes up what comes in between.
@@ -57,7 +61,7 @@ struct PlayerCore {
     void send_order();
     ViewOrder view_order() const;
     DisplaySettings display_settings() const;
-    bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle(); }
+    bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle() && board.idle(); }
     bool picture_ready() const;  // of the state as it is, or none can be made
     std::string observe(Observable what) const;
     std::string state_json() const;  // all observables and the edits, as texts
@@ -70,6 +74,7 @@ struct PlayerCore {
     void record_line(const Command& command, const std::vector<std::string>& arguments);
     void restore_text();
     void show_panel(const std::string& name);  // opens it, in front
+    void forget_stops();   // the files have changed, or the scene
     void explain_scene();  // to PlayerState::explained, when the answer comes
     void keep(std::shared_ptr<const Picture> picture);  // to compare with; null: none
     void rebuild() { maker.edit(edits); }
@@ -79,7 +84,7 @@ struct PlayerCore {
 
   private:
     void take_text(const ShownScene& shown);
-    void note_price();
+    void note_stop();
     void order_thumbnails();
     void take_scene(std::unique_ptr<ShownScene> shown);
     void take_swap(ShownScene& shown);

@@ -43,6 +43,8 @@ struct Picture {
     int samples = 0;  // a pixel
     // All samples that kinora-render takes, at full size: the same bits as in its file.
     bool refined = false;
+    bool quick = false;  // the first of its view: as while something moves
+    double ms = 0;       // that it took
 };
 
 // ms that the last frames took. The rows of the HUD.

@@ -364,6 +364,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
                       (step.pass == Pass::Refined || step.whole_samples == 1);
         finish_picture(step, *to);
         times.present = present.ms();
+        to->quick = step.pass == Pass::Quick;
+        to->ms = watch.ms();
         publish(std::move(to));
     }
     times.total = watch.ms();

@@ -52,7 +52,7 @@ class EditorPanel {
 
 // The lights, one of which may shine alone.
 void draw_lights(Context& context);
-// The presets of quality, and what a picture of each took.
+// The slider of quality, and what a picture of each stop took and misses.
 void draw_quality(Context& context);
 
 // Our shaders on the selected object.

@@ -192,7 +192,9 @@ void draw_materials(Context& context, const SceneInfo& scene) {
             context.has("select_material"))
             context.run("select_material", {material.id});
         ImGui::SameLine(theme.px(6));
+        ImGui::PushStyleColor(ImGuiCol_Text, material.further ? theme.dim : theme.text);
         ImGui::TextUnformatted((material.name.empty() ? material.id : material.name).c_str());
+        ImGui::PopStyleColor();
         const float right = ImGui::GetContentRegionAvail().x;
         const float width = ImGui::CalcTextSize(material.shader.c_str()).x;
         ImGui::SameLine(
