@@ -56,6 +56,19 @@ CommandResult action_fly(PlayerCore& core, const Arguments& a) {
     });
 }
 
+CommandResult action_stand(PlayerCore& core, const Arguments& a) {
+    if (!core.info) return no_scene();
+    const std::optional<FreeCamera> camera = camera_of(a.text(0));
+    if (!camera)
+        return refused(
+            "stand takes 13 to 17 numbers: pivot, distance > 0, and right, up, back of length 1 at "
+            "right angles",
+            1);
+    core.state.camera.own = *camera;
+    core.state.camera.free = true;
+    return {};
+}
+
 CommandResult action_pivot(PlayerCore& core, const Arguments& a) {
     std::string why_not;
     if (!core.own_camera(why_not)) return refused(why_not);

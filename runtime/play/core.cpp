@@ -410,13 +410,20 @@ FreeCamera* PlayerCore::own_camera(std::string& why_not) {
     }
     camera.own = free_camera_of(shown->view, shown->origin, distance_to(*info, *shown));
     camera.free = true;
+    if (setup.real_time) taken_camera = camera_text(camera.own);
     return &camera.own;
 }
 
-void PlayerCore::record_line(const Command& command, const std::vector<std::string>& arguments) {
+// What a clock or a late picture has decided is written with all digits, so that the lines lead to
+// the same state.
+void PlayerCore::record_line(const Command& command, const std::vector<std::string>& arguments,
+                             const TimeState& before) {
     if (!record.is_open()) return;
-    if (since_recorded >= 1e-3) record << fmt::format("wait {:.3f}\n", since_recorded);
+    if (since_recorded >= 1e-3) record << fmt::format("wait {}\n", since_recorded);
     since_recorded = 0;
+    if (before.playing) record << fmt::format("seek {}\n", before.frame);
+    if (!taken_camera.empty())
+        record << "stand " << quoted(std::exchange(taken_camera, {})) << '\n';
     record << command.word;
     for (const std::string& argument : arguments) record << ' ' << quoted(argument);
     record << std::endl;

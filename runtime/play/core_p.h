@@ -33,6 +33,7 @@ struct PlayerCore {
     int exit_code = 0;
     std::ofstream record;
     double since_recorded = 0;  // seconds
+    std::string taken_camera;   // as a picture showed it, for the record: `stand`'s text
 
     // Other threads have something new; wait_for() sleeps until then.
     std::mutex wake_mutex;
@@ -71,7 +72,8 @@ struct PlayerCore {
     // The camera that is moved by hand, as the picture shows it; null with a reason.
     FreeCamera* own_camera(std::string& why_not);
     void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
-    void record_line(const Command& command, const std::vector<std::string>& arguments);
+    void record_line(const Command& command, const std::vector<std::string>& arguments,
+                     const TimeState& before);
     void restore_text();
     void show_panel(const std::string& name);  // opens it, in front
     void forget_stops();   // the files have changed, or the scene
