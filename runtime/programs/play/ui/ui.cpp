@@ -47,15 +47,48 @@ Ui::Ui(Player& player, const Layout& layout, float scale, bool follow_size)
       context_(player, theme_, layout_),
       editor_(theme_.editor),
       viewport_(follow_size) {
+    ImGui::GetIO().IniFilename = nullptr;
+    take_fonts();
+    restore_panels();
+}
+
+void Ui::take_fonts() {
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
     unsigned char* texels;
     io.Fonts->GetTexDataAsAlpha8(&texels, &font_.width, &font_.height);
     font_.texels = texels;
     font_.format = TexelFormat::Alpha8;
     io.Fonts->SetTexID(texture_id(&font_));
     io.FontDefault = theme_.fonts.text;
-    restore_panels();
+}
+
+// Between two frames: fonts with the letters that names and texts have by now.
+void Ui::follow_letters() {
+    const auto scene = context_.player.scene();
+    const ShaderDocument& shader = context_.player.shader();
+    bool some = false;
+    if (scene && scene->serial != lettered_scene_) {
+        lettered_scene_ = scene->serial;
+        some |= letters_.add(scene->path);
+        for (const auto* names : {&scene->cameras, &scene->lights})
+            for (const std::string& name : *names) some |= letters_.add(name);
+        for (const ClipInfo& clip : scene->clips) some |= letters_.add(clip.name);
+        for (const NodeInfo& node : scene->nodes) some |= letters_.add(node.name);
+        for (const MaterialInfo& material : scene->materials) some |= letters_.add(material.name);
+    }
+    if (shader.version != lettered_text_ || shader.material != lettered_material_) {
+        lettered_text_ = shader.version;
+        lettered_material_ = shader.material;
+        some |= letters_.add(shader.text);
+    }
+    const auto& findings = context_.player.findings();
+    if (findings.size() != lettered_findings_) {
+        lettered_findings_ = findings.size();
+        for (const FindingText& finding : findings) some |= letters_.add(finding.message);
+    }
+    if (!some) return;
+    theme_.fonts = load_fonts(theme_.scale, letters_);
+    take_fonts();
 }
 
 void Ui::restore_panels() {
@@ -295,6 +328,7 @@ void Ui::draw() {
 
 void Ui::render(const Target& target, float seconds) {
     ImGui::GetIO().DeltaTime = std::max(seconds, 1e-4f);
+    follow_letters();
     ImGui::NewFrame();
     draw();
     ImGui::Render();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/programs/play/ui/context.h"
+#include "runtime/programs/play/ui/letters.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {
@@ -39,6 +40,8 @@ class Ui {
         ImVec2 low, high;
         ImVec2 size() const { return {high.x - low.x, high.y - low.y}; }
     };
+    void take_fonts();
+    void follow_letters();
     void restore_panels();
     void remember_panels();
     bool shows(Area area) const;
@@ -52,6 +55,10 @@ class Ui {
     Layout layout_;
     Theme theme_;
     Texture font_;
+    Letters letters_;
+    uint64_t lettered_scene_ = 0, lettered_text_ = 0;  // looked through for letters
+    std::string lettered_material_;
+    size_t lettered_findings_ = 0;
     Context context_;
     NodesPanel nodes_;
     LibraryPanel library_;
