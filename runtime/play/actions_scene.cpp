@@ -51,7 +51,7 @@ CommandResult action_click(PlayerCore& core, const Arguments& a) {
     auto picture = [&core] { return core.loop.picture(); };
     core.ask({[&core, x, y, order, picture](ShownScene& scene) -> Answer {
                   PickedPixel picked =
-                      pick_pixel(*scene.scene, x, y, order.width, order.height, picture().get());
+                      pick_pixel(scene.seen(), x, y, order.width, order.height, picture().get());
                   auto story = picked.hit ? story_of(scene, order, x, y) : nullptr;
                   return [&core, picked, story] {
                       core.state.selection.node = picked.node;
