@@ -82,23 +82,33 @@ class Session:
     def act(self, word, row, menus):
         """The row by its key, its menu entry, or its name; and as a line of a script."""
         done = self.count(word)
-        if row.keys:
+        line = f"{word} {row.example}".strip()
+        if row.keys and row.arguments and not row.arguments.startswith("["):
+            opened = self.count("commands")
+            self.window.key(xdotool_key(row.keys))  # the palette waits for the arguments
+            self.window.recorded(self.record, "^commands$", opened + 1)
+            self.finish_line(line, line.split(" ", 1)[1])
+        elif row.keys:
             self.window.key(xdotool_key(row.keys))
             self.lines.append(word)
         elif row.menu:
             self.click_menu(row.menu, menus)
             self.lines.append(word)
         else:
-            opened, closed = self.count("commands"), self.count("panel commands")
+            opened = self.count("commands")
             self.window.key("ctrl+p")
             self.window.recorded(self.record, "^commands$", opened + 1)
-            self.settle()
-            line = f"{word} {row.example}".strip()
-            self.window.type(line)
-            self.window.key("Return")
-            self.lines += ["commands", line, "panel commands"]
-            self.window.recorded(self.record, "^panel commands$", closed + 1)
+            self.finish_line(line, line)
         self.window.recorded(self.record, rf"^{word}\b", done + 1)
+
+    def finish_line(self, line, typed):
+        """The palette is open: what is typed makes it that line."""
+        closed = self.count("panel commands")
+        self.settle()
+        self.window.type(typed)
+        self.window.key("Return")
+        self.lines += ["commands", line, "panel commands"]
+        self.window.recorded(self.record, "^panel commands$", closed + 1)
 
     def click_menu(self, path, menus):
         """The title is the menu's place among the words of the bar, the entry its place in the menu."""
