@@ -258,14 +258,12 @@ TEST(Findings, OfTheScenesFileLeadToTheShaderOrTheLine) {
 TEST(Texts, OfSeveralShadersAreOne) {
     const std::string file = testing::TempDir() + "kinora_play_two.dae";
     std::string text = text_of(scene_path("scenes/matte.dae"));
-    text = replaced(text, "<effect id=\"bright\">",
-                    "<effect id=\"bright\"><profile_RSL><code><![CDATA[\n"
-                    "surface two() { Ci = color(1, 0.5, 0.25); Oi = 1; }\n"
+    text = replaced(text, "]]></code>",
                     "displacement bumps(float height = 0) { P += height * normalize(N); }\n"
-                    "]]></code><technique sid=\"a\"><pass>"
-                    "<shader stage=\"SURFACE\"><name>two</name></shader>"
-                    "<shader stage=\"DISPLACEMENT\"><name>bumps</name></shader>"
-                    "</pass></technique></profile_RSL>");
+                    "]]></code>");
+    text = replaced(text, "<shader stage=\"SURFACE\">",
+                    "<shader stage=\"DISPLACEMENT\"><name>bumps</name></shader>\n"
+                    "<shader stage=\"SURFACE\">");
     write(file, text);
     Played played(small_request(file));
     Player& player = played.player;
@@ -276,18 +274,20 @@ TEST(Texts, OfSeveralShadersAreOne) {
     ASSERT_EQ(player.shader().params.size(), 1u);
     EXPECT_EQ(player.shader().params[0].name, "height");
     EXPECT_EQ(played.script("param height 0.4"), "");
-    const std::vector<uint8_t> higher = pixels(player);
-    EXPECT_NE(higher, before);
-    EXPECT_EQ(played.script("undo; find \"height = 0\"; caret 3 38; erase 1; type 0.4"), "");
-    EXPECT_EQ(pixels(player), higher) << player.shader().text;
+    EXPECT_NE(pixels(player), before);
+    EXPECT_EQ(played.script("undo; find \"0) { P\"; erase 1; type 0.4"), "");
+    const std::string higher = replaced(text, "height = 0)", "height = 0.4)");
+    write(testing::TempDir() + "kinora_play_higher.dae", higher);
+    Played other(small_request(testing::TempDir() + "kinora_play_higher.dae"));
+    EXPECT_EQ(pixels(player), pixels(other.player)) << player.shader().text;
     EXPECT_EQ(played.script("select_material bright; edit"), "");
     EXPECT_NE(player.shader().text.find("height = 0.4"), std::string::npos);
-    EXPECT_EQ(played.script("find 0.25; erase 4; type 0.9; wait refined; save; wait refined"), "");
+    EXPECT_EQ(played.script("find \"Kd * diffuse\"; type \"0.5 * \"; wait refined; save"), "");
     const std::vector<uint8_t> both = pixels(player);
-    EXPECT_NE(both, higher);
-    EXPECT_EQ(text_of(file), replaced(replaced(text, "height = 0)", "height = 0.4)"), "0.25", "0.9"));
+    EXPECT_EQ(text_of(file), replaced(higher, "Kd * diffuse", "0.5 * Kd * diffuse"));
     Played again(small_request(file));
     EXPECT_EQ(pixels(again.player), both);
+    EXPECT_NE(both, pixels(other.player));
 }
 
 // A light's shader and its parameters, while it shines.
