@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/play/display.h"
 #include "runtime/programs/play/ui/panels.h"
@@ -252,30 +255,31 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
     const auto times = context.player.stage_times();
     if (times.empty()) return;
     const StageTimes& last = times.back();
-    ImVec2 at{corner.x + margin, corner.y + margin};
     const PictureState& state = context.state().picture;
-    shadowed_text(
-        list, at, theme.text,
-        fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total, picture_->width, picture_->height,
-                    picture_->samples, picture_->refined ? "   refined" : ""));
-    at.y += line;
-    if (picture_->scale < 1) {
-        shadowed_text(list, at, theme.accent,
-                      fmt::format("{:.0f} % of the width, to hold {:.0f} pictures a second",
-                                  100 * picture_->scale, state.hold_rate));
-        at.y += line;
-    }
-    if (!state.aov.empty()) {
-        shadowed_text(list, at, theme.accent,
-                      state.aov + (state.false_color ? ", false color" : ""));
-        at.y += line;
-    }
-    if (!state.light.empty()) {
-        shadowed_text(list, at, theme.accent, "light " + state.light + " alone");
-        at.y += line;
-    }
-    if (state.exposure != 0) {
-        shadowed_text(list, at, theme.dim, fmt::format("{:+.2g} stops", state.exposure));
+    std::vector<std::pair<ImU32, std::string>> lines;
+    lines.emplace_back(theme.text, fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total,
+                                               picture_->width, picture_->height,
+                                               picture_->samples,
+                                               picture_->refined ? "   refined" : ""));
+    if (picture_->scale < 1)
+        lines.emplace_back(theme.accent,
+                           fmt::format("{:.0f} % of the width, to hold {:.0f} pictures a second",
+                                       100 * picture_->scale, state.hold_rate));
+    if (!state.aov.empty())
+        lines.emplace_back(theme.accent, state.aov + (state.false_color ? ", false color" : ""));
+    if (!state.light.empty()) lines.emplace_back(theme.accent, "light " + state.light + " alone");
+    if (state.exposure != 0)
+        lines.emplace_back(theme.dim, fmt::format("{:+.2g} stops", state.exposure));
+    ImVec2 at{corner.x + margin, corner.y + margin};
+    float width = theme.px(240);
+    for (const auto& [color, text] : lines)
+        width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
+    const float high = line * static_cast<float>(lines.size());
+    list->AddRectFilled({at.x - theme.px(6), at.y - theme.px(4)},
+                        {at.x + width + theme.px(6), at.y + high + theme.px(2)},
+                        IM_COL32(0, 0, 0, 110), theme.px(4));
+    for (const auto& [color, text] : lines) {
+        list->AddText(at, color, text.c_str());
         at.y += line;
     }
     ImGui::SetCursorScreenPos({at.x, at.y + theme.px(4)});
