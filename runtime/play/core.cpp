@@ -98,7 +98,7 @@ constexpr int kQuickRank = 0;  // presets come behind it
 
 // The picture shown as a stop of the slider, if it is one.
 void PlayerCore::note_stop() {
-    if (std::ranges::find(state.panels, "times") == state.panels.end()) return forget_stops();
+    if (std::ranges::find(state.panels, "quality") == state.panels.end()) return forget_stops();
     const ViewOrder view = view_order();
     if (!board_view || !board_view->same_picture(view) || !(board_edits == edits)) {
         board.clear();

@@ -49,7 +49,7 @@ struct PictureState {
     bool adapt = true;         // fewer pixels where that rate is not reached
     bool refine = true;        // to the quality of kinora-render when nothing moves
     std::string quality;       // the preset; "" single options were put over one
-    std::vector<TradeStop> stops;  // while the panel `times` is open: of this view
+    std::vector<TradeStop> stops;  // while the panel `quality` is open: of this view
     std::string light;     // the one that shines alone, as the scene lists it; "" all
     std::string wipe;      // the picture kept by `keep`, left of `wipe_at`; "" none
     double wipe_at = 0.5;  // share of the width

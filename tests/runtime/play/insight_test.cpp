@@ -201,7 +201,7 @@ TEST(Quality, StopsHaveTheirErrors) {
     request.quality = *find_quality("draft");
     Played played(request);
     Player& player = played.player;
-    EXPECT_EQ(played.script("show_times; quality quick"), "");
+    EXPECT_EQ(played.script("show_quality; quality quick"), "");
     std::map<std::string, raytrace::Film> films;
     films["quick"] = picture_of(player)->film;
     EXPECT_FALSE(player.state().picture.refine);
@@ -229,7 +229,7 @@ TEST(Quality, StopsHaveTheirErrors) {
     picture_of(player);
     ASSERT_EQ(player.state().picture.stops.size(), 1u);
     EXPECT_EQ(player.state().picture.stops[0].name, "preview");
-    EXPECT_EQ(played.script("show_times"), "");
+    EXPECT_EQ(played.script("show_quality"), "");
     picture_of(player);
     EXPECT_TRUE(player.state().picture.stops.empty());
 }

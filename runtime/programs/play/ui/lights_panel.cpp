@@ -37,7 +37,7 @@ void draw_quality(Context& context) {
         while (at < kStops && (at == 0 || picture.quality != kPresetNames[at - 1])) ++at;
     const bool own = at == kStops;  // single options were given
     const std::string name = own ? "own options" : at == 0 ? quick : kPresetNames[at - 1];
-    ImGui::SetNextItemWidth(context.theme.px(250));
+    ImGui::SetNextItemWidth(-1);
     if (own) at = kStops - 1;
     if (ImGui::SliderInt("##quality", &at, 0, kStops - 1, name.c_str()))
         context.run("quality", {at == 0 ? "quick" : kPresetNames[at - 1]});
@@ -54,7 +54,9 @@ void draw_quality(Context& context) {
         ImGui::TableNextColumn();
         const bool best = &stop == &picture.stops.back();
         if (stop.against.empty()) {
-            ImGui::TextDisabled("%s", best ? "the best so far" : "");
+            ImGui::TextDisabled("%s", best ? "best" : "...");
+            if (best && ImGui::IsItemHovered())
+                ImGui::SetTooltip("the others are compared with it");
             ImGui::TableNextColumn();
             continue;
         }
@@ -65,6 +67,10 @@ void draw_quality(Context& context) {
         ImGui::Text("%.4f", stop.flip);
     }
     ImGui::EndTable();
+    if (picture.stops.size() > 1) return;
+    ImGui::PushStyleColor(ImGuiCol_Text, context.theme.dim);
+    ImGui::TextWrapped("Choose another quality to see what it takes and misses.");
+    ImGui::PopStyleColor();
 }
 
 }  // namespace kinora::play

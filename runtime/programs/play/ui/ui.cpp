@@ -16,14 +16,20 @@ struct PanelRow {
     const char* title;
     Area area;
     bool at_start;  // open the first time
+    bool scrolls;   // as a whole; others scroll what is in them
 };
 constexpr PanelRow kPanels[] = {
-    {"scene", "Scene", Area::Left, true},          {"parameters", "Parameters", Area::Left, true},
-    {"lights", "Lights", Area::Left, false},       {"editor", "Shader", Area::Right, true},
-    {"pixel", "Pixel", Area::Right, true},         {"library", "Library", Area::Right, false},
-    {"explained", "Explained", Area::Left, false}, {"source", "Source", Area::Right, false},
-    {"findings", "Findings", Area::Bottom, false},
-    {"times", "Frame times", Area::Bottom, false},
+    {"scene", "Scene", Area::Left, true, false},
+    {"parameters", "Parameters", Area::Left, true, false},
+    {"lights", "Lights", Area::Left, false, true},
+    {"quality", "Quality", Area::Left, false, true},
+    {"editor", "Shader", Area::Right, true, false},
+    {"pixel", "Pixel", Area::Right, true, true},
+    {"library", "Library", Area::Right, false, false},
+    {"explained", "Explained", Area::Right, false, true},
+    {"source", "Source", Area::Right, false, false},
+    {"findings", "Findings", Area::Bottom, false, false},
+    {"times", "Frame times", Area::Bottom, false, true},
 };
 // Open panels without a place in an area.
 constexpr const char* kOverlays[] = {"hud", "code", "keys", "commands"};
@@ -144,6 +150,7 @@ void Ui::draw_panel(const char* name) {
     if (panel == "scene") nodes_.draw(context_);
     if (panel == "parameters") draw_parameters(context_);
     if (panel == "lights") draw_lights(context_);
+    if (panel == "quality") draw_quality(context_);
     if (panel == "explained") draw_explained(context_);
     if (panel == "library") library_.draw(context_);
     if (panel == "editor") editor_.draw(context_);
@@ -161,7 +168,7 @@ void Ui::draw_area(Area area, const Box& box) {
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
     ImGui::PopStyleVar();
     std::string& front = layout_.front[static_cast<size_t>(area)];
-    if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) {
+    if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) {
         for (const PanelRow& row : kPanels) {
             if (row.area != area || !context_.open(row.name)) continue;
             bool stays = true;
@@ -178,7 +185,9 @@ void Ui::draw_area(Area area, const Box& box) {
                 if (ImGui::GetFrameCount() >= 3) front = row.name;
                 ImGui::BeginChild(
                     row.name, {0, 0}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+                    row.scrolls
+                        ? ImGuiWindowFlags_HorizontalScrollbar
+                        : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
                 draw_panel(row.name);
                 ImGui::EndChild();
                 ImGui::EndTabItem();
