@@ -56,6 +56,19 @@ CommandResult action_fly(PlayerCore& core, const Arguments& a) {
     });
 }
 
+CommandResult action_stand(PlayerCore& core, const Arguments& a) {
+    if (!core.info) return no_scene();
+    const std::optional<FreeCamera> camera = camera_of(a.text(0));
+    if (!camera)
+        return refused(
+            "stand takes 13 to 17 numbers: pivot, distance > 0, and right, up, back of length 1 at "
+            "right angles",
+            1);
+    core.state.camera.own = *camera;
+    core.state.camera.free = true;
+    return {};
+}
+
 CommandResult action_pivot(PlayerCore& core, const Arguments& a) {
     std::string why_not;
     if (!core.own_camera(why_not)) return refused(why_not);
@@ -63,7 +76,7 @@ CommandResult action_pivot(PlayerCore& core, const Arguments& a) {
     ViewOrder order = core.view_order();
     core.ask({[&core, x, y, order](ShownScene& scene) -> Answer {
                   PickedPixel picked =
-                      pick_pixel(*scene.scene, x, y, order.width, order.height, nullptr);
+                      pick_pixel(scene.seen(), x, y, order.width, order.height, nullptr);
                   return [&core, picked] {
                       if (!picked.hit || !core.state.camera.free) return;
                       FreeCamera& camera = core.state.camera.own;
@@ -89,7 +102,7 @@ CommandResult action_frame_selection(PlayerCore& core, const Arguments&) {
     if (node.empty()) return refused("no node is selected");
     if (!core.own_camera(why_not)) return refused(why_not);
     core.ask({[&core, node](ShownScene& scene) -> Answer {
-                  auto [low, high] = box_of(*scene.scene, find_node(*scene.scene, node));
+                  auto [low, high] = box_of(scene.seen(), find_node(scene.seen(), node));
                   return [&core, low = low, high = high] {
                       if (core.state.camera.free && low.x <= high.x)
                           frame_box(core.state.camera.own, low, high, aspect_of(core));

@@ -109,10 +109,15 @@ CommandResult action_false_color(PlayerCore& core, const Arguments&) {
 
 CommandResult action_quality(PlayerCore& core, const Arguments& a) {
     if (!core.info) return refused("there is no scene yet");
-    const std::vector<std::string> names(std::begin(kPresetNames), std::end(kPresetNames));
-    auto at = std::ranges::find(names, a.text_or(0, core.state.picture.quality));
+    // Of least quality: the quick picture stays, as while something moves.
+    std::vector<std::string> names{"quick"};
+    names.insert(names.end(), std::begin(kPresetNames), std::end(kPresetNames));
+    PictureState& picture = core.state.picture;
+    auto at = std::ranges::find(names, a.text_or(0, picture.refine ? picture.quality : "quick"));
     if (a.has(0) && at == names.end()) return refused(unknown_name("quality", a.text(0), names), 1);
     if (!a.has(0) && (at == names.end() || ++at == names.end())) at = names.begin();
+    picture.refine = at != names.begin();
+    if (!picture.refine || *at == picture.quality) return {};
     core.request.quality = *find_quality(*at);
     // A session's options are the words, which say the same.
     std::erase_if(core.request.words, [](const std::string& word) {

@@ -15,7 +15,7 @@ std::shared_ptr<const PixelStory> story_of(ShownScene& scene, const ViewOrder& o
     PlacedCamera placed;
     FrameSettings settings = refined_settings(scene, order, placed);
     auto story = std::make_shared<PixelStory>(pixel_story(
-        *scene.scene, time_of(scene, order), settings, scene.diagnostics->files, x, y, 0));
+        scene.seen(), time_of(scene, order), settings, scene.diagnostics->files, x, y, 0));
     story->frame = order.frame;
     return story;
 }

@@ -51,7 +51,7 @@ CommandResult action_click(PlayerCore& core, const Arguments& a) {
     auto picture = [&core] { return core.loop.picture(); };
     core.ask({[&core, x, y, order, picture](ShownScene& scene) -> Answer {
                   PickedPixel picked =
-                      pick_pixel(*scene.scene, x, y, order.width, order.height, picture().get());
+                      pick_pixel(scene.seen(), x, y, order.width, order.height, picture().get());
                   auto story = picked.hit ? story_of(scene, order, x, y) : nullptr;
                   return [&core, picked, story] {
                       core.state.selection.node = picked.node;
@@ -90,15 +90,25 @@ CommandResult action_deselect(PlayerCore& core, const Arguments&) {
 CommandResult action_param(PlayerCore& core, const Arguments& a) {
     const std::string& material = core.state.selection.material;
     if (material.empty()) return refused("no material is selected");
+    if (a.has(2) && a.text(2) != "further") return refused("param takes further, or nothing", 3);
     core.typing = false;
     SceneEdits edits = core.edits;
-    std::string target = material + "." + a.text(0);
+    CommandResult known;
+    const MaterialInfo* info = find_material_info(core, material, known);
+    if (!info) return known;
+    const std::string target = info->target + "." + a.text(0);
     auto found = std::ranges::find_if(edits.params, [&](auto& p) { return p.first == target; });
     if (found == edits.params.end())
         edits.params.emplace_back(target, a.text(1));
     else
         found->second = a.text(1);
-    core.change_scene(std::move(edits));
+    if (a.has(2) && core.dragged == target) {  // undo takes the whole drag back
+        core.edits = std::move(edits);
+        core.rebuild();
+    } else {
+        core.change_scene(std::move(edits));
+    }
+    core.dragged = target;
     return {};
 }
 
@@ -136,6 +146,7 @@ CommandResult action_redo(PlayerCore& core, const Arguments&) {
 
 CommandResult action_reload(PlayerCore& core, const Arguments&) {
     if (core.request.scene.empty()) return refused("there is no scene yet");
+    core.forget_stops();
     core.maker.open(core.request, core.edits, false);
     return {};
 }

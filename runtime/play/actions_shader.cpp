@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "runtime/description/shader_library.h"
 #include "runtime/play/core_p.h"
@@ -25,6 +27,29 @@ const MaterialInfo* material_of(const PlayerCore& core, const std::string& id) {
     return found == core.info->materials.end() ? nullptr : &*found;
 }
 
+const SceneEdits::Text* text_of(const SceneEdits& edits, const std::string& id) {
+    auto found = std::ranges::find(edits.texts, id, &SceneEdits::Text::material);
+    return found == edits.texts.end() ? nullptr : &*found;
+}
+
+bool is_alone(const SceneEdits& edits, const std::string& id) {
+    const SceneEdits::Text* text = text_of(edits, id);
+    return text && text->alone;
+}
+
+// The first of those that wear the text; itself, where it wears one alone.
+std::string wearer_of(const PlayerCore& core, const MaterialInfo& material) {
+    const ShaderSourceText& own = *material.source;
+    if (own.file.empty() || is_alone(core.edits, material.id)) return material.id;
+    for (const MaterialInfo& other : core.info->materials) {
+        const ShaderSourceText* source = other.source.get();
+        if (source && source->file == own.file && source->begin == own.begin &&
+            source->end == own.end && !is_alone(core.edits, other.id))
+            return other.id;
+    }
+    return material.id;
+}
+
 // The new text is shown as soon as it compiles. Letters typed one after the other are one change.
 void show_text(PlayerCore& core, std::string text, bool typed) {
     ShaderDocument& document = core.document;
@@ -35,9 +60,9 @@ void show_text(PlayerCore& core, std::string text, bool typed) {
     document.dirty = true;
     SceneEdits edits = core.edits;
     auto found = std::ranges::find_if(
-        edits.texts, [&](const SceneEdits::Text& t) { return t.material == document.material; });
+        edits.texts, [&](const SceneEdits::Text& t) { return t.material == document.wearer; });
     if (found == edits.texts.end())
-        found = edits.texts.insert(edits.texts.end(), {document.material, document.name, "", 0});
+        found = edits.texts.insert(edits.texts.end(), {document.wearer, document.name, "", 0});
     found->text = document.text;
     found->version = document.version;
     if (typed && core.typing) {
@@ -60,6 +85,37 @@ size_t offset_of(const std::string& text, int line, int column) {
     return std::min(at + size_t(std::max(column, 1) - 1), end);
 }
 
+// A text of a shader, and where in it a finding stands.
+struct PlaceInText {
+    std::string material;
+    size_t at = 0;
+};
+
+// How far into the decoded text a byte of the file is that the text stands in.
+size_t decoded_offset(const ShaderSourceText& source, uint32_t byte) {
+    std::ifstream in(source.file, std::ios::binary);
+    std::string head(byte, 0);
+    if (!in.read(head.data(), std::streamsize(head.size()))) return 0;
+    bool cdata = false;
+    return plain_text(std::string_view(head).substr(source.begin), cdata).size();
+}
+
+std::optional<PlaceInText> place_in_text(const PlayerCore& core, const FindingText& finding) {
+    const ShaderDocument& document = core.document;
+    if (!document.material.empty() && finding.file == document.name)
+        return PlaceInText{document.material, finding.begin};
+    if (!core.info || finding.file.empty()) return std::nullopt;
+    for (const MaterialInfo& material : core.info->materials) {
+        const ShaderSourceText* source = material.source.get();
+        if (!source) continue;
+        if (finding.file == source->name) return PlaceInText{material.id, finding.begin};
+        if (!source->embedded || finding.file != source->file) continue;
+        if (finding.begin >= source->begin && finding.begin <= source->end)
+            return PlaceInText{material.id, decoded_offset(*source, finding.begin)};
+    }
+    return std::nullopt;
+}
+
 bool is_trailing(char c) {  // of a character of several bytes
     return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }
@@ -77,13 +133,18 @@ CommandResult action_edit(PlayerCore& core, const Arguments& a) {
         ShaderDocument document;
         document.version = core.document.version;
         document.material = id;
+        document.wearer = wearer_of(core, *material);
         document.file = material->source->file;
         document.name = material->source->name;
         document.embedded = material->source->embedded;
         document.text = material->source->text;
         document.params = material->params;
-        for (const SceneEdits::Text& text : core.edits.texts)
-            if (text.material == id) document.text = text.text;
+        if (!text_of(core.edits, document.wearer) && text_of(core.edits, id))
+            document.wearer = id;  // a session says so
+        if (const SceneEdits::Text* edited = text_of(core.edits, document.wearer)) {
+            document.text = edited->text;
+            document.name = edited->file;
+        }
         document.dirty = document.text != material->source->text;
         core.document = std::move(document);
     }
@@ -103,6 +164,7 @@ CommandResult action_bind(PlayerCore& core, const Arguments& a) {
         return refused(unknown_name("shader of ours", name, ours), 1);
     if (CommandResult opened = action_edit(core, Arguments(kNoWords)); !opened.done) return opened;
     ShaderDocument& document = core.document;
+    document.wearer = document.material;
     document.text = library_shader_text(name);
     document.caret = 0;
     document.dirty = true;
@@ -110,7 +172,7 @@ CommandResult action_bind(PlayerCore& core, const Arguments& a) {
     ++document.version;
     core.typing = false;
     core.change_scene(edits_with_text(
-        core.edits, {document.material, document.name, document.text, document.version}));
+        core.edits, {document.material, document.name, document.text, document.version, true}));
     return {};
 }
 
@@ -171,6 +233,31 @@ CommandResult action_find(PlayerCore& core, const Arguments& a) {
     return {};
 }
 
+// Into the editor where a shader's text is at fault, else to the file.
+CommandResult action_finding(PlayerCore& core, const Arguments& a) {
+    const std::vector<FindingText>& all = core.all_findings;
+    if (all.empty()) return refused("nothing was found: neither an error nor a warning");
+    if (a.has(0) && !(a.number(0) >= 1 && a.number(0) <= double(all.size())))
+        return refused(fmt::format("there are findings 1 to {}", all.size()), 1);
+    size_t& number = core.state.finding;
+    number = a.has(0) ? size_t(a.number(0)) : number % all.size() + 1;
+    if (number > all.size()) number = 1;
+    const FindingText finding = all[number - 1];
+    if (std::optional<PlaceInText> place = place_in_text(core, finding)) {
+        const std::string before = std::exchange(core.state.selection.material, place->material);
+        if (action_edit(core, Arguments(kNoWords)).done) {
+            core.document.caret = std::min(place->at, core.document.text.size());
+            core.show_panel("editor");
+            return {true, finding.message, 0};
+        }
+        core.state.selection.material = before;
+    }
+    if (finding.file.empty()) return {true, finding.message, 0};
+    core.state.place = {finding.file, finding.line, finding.column, finding.printed};
+    core.show_panel("source");
+    return {true, finding.message, 0};
+}
+
 CommandResult action_save(PlayerCore& core, const Arguments& a) {
     ShaderDocument& document = core.document;
     if (document.material.empty()) return no_text();
@@ -191,7 +278,7 @@ CommandResult action_save(PlayerCore& core, const Arguments& a) {
     if (a.has(0)) return {true, file, 0};
     // From now on the file says it.
     std::erase_if(core.edits.texts,
-                  [&](const SceneEdits::Text& text) { return text.material == document.material; });
+                  [&](const SceneEdits::Text& text) { return text.material == document.wearer; });
     core.maker.open(core.request, core.edits, false);
     return {true, file, 0};
 }

@@ -11,6 +11,7 @@
 
 #include "runtime/explain/explain.h"
 #include "runtime/play/clock.h"
+#include "runtime/play/guide.h"
 #include "runtime/trade/knobs.h"
 
 namespace kinora {
@@ -53,7 +54,8 @@ PlayerCore::PlayerCore(PlayerSetup player_setup)
       }),
       loop(setup.real_time, [this] { wake(); }),
       maker([this] { wake(); }, setup.shows_broken),
-      thumbnails([this] { wake(); }) {}
+      thumbnails([this] { wake(); }),
+      board([this] { wake(); }) {}
 
 void PlayerCore::wake() {
     {
@@ -79,27 +81,57 @@ void PlayerCore::take_news() {
     while (auto shown = maker.take()) take_scene(std::move(shown));
     for (const Answer& answer : loop.take_answers()) answer();
     add_new(frame_findings, loop.take_findings());
-    note_price();
+    note_stop();
     bool reload = false;
     {
         std::lock_guard lock(wake_mutex);
         std::swap(reload, files_changed);
     }
-    if (reload && setup.watch_files && !maker.opening()) maker.open(request, edits, false);
+    if (reload && setup.watch_files && !maker.opening()) {
+        forget_stops();
+        maker.open(request, edits, false);
+    }
     merge_findings();
 }
 
-// Of the preset that the picture shown was refined by.
-void PlayerCore::note_price() {
-    const auto picture = loop.picture();
+constexpr int kQuickRank = 0;  // presets come behind it
+
+// The picture shown as a stop of the slider, if it is one.
+void PlayerCore::note_stop() {
+    if (std::ranges::find(state.panels, "quality") == state.panels.end()) return forget_stops();
+    const ViewOrder view = view_order();
+    if (!board_view || !board_view->same_picture(view) || !(board_edits == edits)) {
+        board.clear();
+        board_view = view;
+        board_edits = edits;
+    }
+    state.picture.stops = board.stops();
     const std::string& quality = state.picture.quality;
-    if (quality.empty() || !picture || !picture->refined || !loop.idle() || !maker.idle()) return;
-    const std::vector<StageTimes> times = loop.times();
-    if (times.empty() || times.back().cancelled) return;
-    auto& prices = state.picture.prices;
-    auto row = std::ranges::find(prices, quality, &std::pair<std::string, double>::first);
-    if (row == prices.end()) row = prices.insert(row, {quality, 0});
-    row->second = times.back().total;
+    const auto picture = loop.picture();
+    if (!picture || picture->serial == noted || state.time.playing) return;
+    if (!maker.idle() || !loop.caught_up()) return;
+    const bool refined = picture->refined && loop.idle() && !quality.empty();
+    if (!refined && !picture->quick) return;
+    noted = picture->serial;
+    int rank = kQuickRank;
+    if (refined)
+        rank = 1 + int(std::ranges::find(kPresetNames, quality) - std::begin(kPresetNames));
+    std::shared_ptr<const raytrace::Film> film(picture, &picture->film);
+    if (film->width != picture->width || film->height != picture->height) {
+        auto large = std::make_shared<raytrace::Film>();
+        enlarge(*film, picture->guide, picture->width, picture->height, *large);
+        film = std::move(large);
+    }
+    board.add(refined ? quality : "quick", rank, picture->ms, std::move(film));
+    state.picture.stops = board.stops();
+}
+
+void PlayerCore::forget_stops() {
+    if (!board_view) return;
+    board.clear();
+    board_view.reset();
+    noted = 0;
+    state.picture.stops.clear();
 }
 
 void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
@@ -169,6 +201,7 @@ void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with) {
     undo.clear();
     redo.clear();
     session = std::move(with);
+    forget_stops();
     maker.open(scene, edits, true);
 }
 
@@ -220,7 +253,7 @@ void PlayerCore::keep(std::shared_ptr<const Picture> picture) {
 // What has become of the edited text.
 void PlayerCore::take_text(const ShownScene& shown) {
     for (const SceneEdits::Text& text : shown.edits.texts) {
-        if (text.material != document.material || text.version == 0) continue;
+        if (text.material != document.wearer || text.version == 0) continue;
         document.compiling = text.version != document.version;
         document.compile_ms = shown.build_ms;
         if (shown.scene || shown.swapped) document.shown = text.version;
@@ -233,6 +266,7 @@ void PlayerCore::take_text(const ShownScene& shown) {
 // After undo: the text is what the edits say, or as it was read.
 void PlayerCore::restore_text() {
     typing = false;
+    dragged.clear();
     if (document.material.empty() || !info) return;
     std::string text, as_read;
     document.compiling = false;
@@ -241,7 +275,7 @@ void PlayerCore::restore_text() {
         if (material.id == document.material && material.source) as_read = material.source->text;
     text = as_read;
     for (const SceneEdits::Text& edit : edits.texts)
-        if (edit.material == document.material) text = edit.text;
+        if (edit.material == document.wearer) text = edit.text;
     document.dirty = text != as_read;
     if (text == document.text) return;
     document.text = text;
@@ -250,11 +284,12 @@ void PlayerCore::restore_text() {
     document.findings.clear();
     document.shown = document.version;
     for (SceneEdits::Text& edit : edits.texts)
-        if (edit.material == document.material) edit.version = document.version;
+        if (edit.material == document.wearer) edit.version = document.version;
 }
 
 void PlayerCore::merge_findings() {
     all_findings.clear();
+    add_new(all_findings, document.findings);
     add_new(all_findings, scene_findings);
     add_new(all_findings, frame_findings);
 }
@@ -376,13 +411,20 @@ FreeCamera* PlayerCore::own_camera(std::string& why_not) {
     }
     camera.own = free_camera_of(shown->view, shown->origin, distance_to(*info, *shown));
     camera.free = true;
+    if (setup.real_time) taken_camera = camera_text(camera.own);
     return &camera.own;
 }
 
-void PlayerCore::record_line(const Command& command, const std::vector<std::string>& arguments) {
+// What a clock or a late picture has decided is written with all digits, so that the lines lead to
+// the same state.
+void PlayerCore::record_line(const Command& command, const std::vector<std::string>& arguments,
+                             const TimeState& before) {
     if (!record.is_open()) return;
-    if (since_recorded >= 1e-3) record << fmt::format("wait {:.3f}\n", since_recorded);
+    if (since_recorded >= 1e-3) record << fmt::format("wait {}\n", since_recorded);
     since_recorded = 0;
+    if (before.playing) record << fmt::format("seek {}\n", before.frame);
+    if (!taken_camera.empty())
+        record << "stand " << quoted(std::exchange(taken_camera, {})) << '\n';
     record << command.word;
     for (const std::string& argument : arguments) record << ' ' << quoted(argument);
     record << std::endl;
@@ -392,8 +434,14 @@ void PlayerCore::change_scene(SceneEdits changed) {
     undo.push_back(edits);
     if (undo.size() > kMostUndo) undo.erase(undo.begin());
     redo.clear();
+    dragged.clear();
     edits = std::move(changed);
     rebuild();
+}
+
+void PlayerCore::show_panel(const std::string& name) {
+    if (std::ranges::find(state.panels, name) == state.panels.end()) state.panels.push_back(name);
+    state.raised = {name, state.raised.times + 1};
 }
 
 }  // namespace kinora

@@ -33,11 +33,13 @@ struct PlayerCore {
     int exit_code = 0;
     std::ofstream record;
     double since_recorded = 0;  // seconds
+    std::string taken_camera;   // as a picture showed it, for the record: `stand`'s text
 
     // Other threads have something new; wait_for() sleeps until then.
     std::mutex wake_mutex;
     std::condition_variable woken;
-    bool typing = false;  // the last change was of the text, by keys
+    bool typing = false;    // the last change was of the text, by keys
+    std::string dragged;    // the last change was of this parameter: MATERIAL.NAME
     bool news = false;
     bool files_changed = false;     // under the same mutex
     uint64_t explained_serial = 0;  // of the scene that was explained last
@@ -48,6 +50,10 @@ struct PlayerCore {
     RenderLoop loop;
     SceneMaker maker;
     Thumbnails thumbnails;
+    TradeBoard board;
+    std::optional<ViewOrder> board_view;  // of the board's pictures
+    SceneEdits board_edits;
+    uint64_t noted = 0;  // the picture that was put on it last
 
     void wake();
     // Until it is so, or for so many seconds. Takes up what comes in between.
@@ -56,7 +62,7 @@ struct PlayerCore {
     void send_order();
     ViewOrder view_order() const;
     DisplaySettings display_settings() const;
-    bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle(); }
+    bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle() && board.idle(); }
     bool picture_ready() const;  // of the state as it is, or none can be made
     std::string observe(Observable what) const;
     std::string state_json() const;  // all observables and the edits, as texts
@@ -66,8 +72,11 @@ struct PlayerCore {
     // The camera that is moved by hand, as the picture shows it; null with a reason.
     FreeCamera* own_camera(std::string& why_not);
     void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
-    void record_line(const Command& command, const std::vector<std::string>& arguments);
+    void record_line(const Command& command, const std::vector<std::string>& arguments,
+                     const TimeState& before);
     void restore_text();
+    void show_panel(const std::string& name);  // opens it, in front
+    void forget_stops();   // the files have changed, or the scene
     void explain_scene();  // to PlayerState::explained, when the answer comes
     void keep(std::shared_ptr<const Picture> picture);  // to compare with; null: none
     void rebuild() { maker.edit(edits); }
@@ -77,7 +86,7 @@ struct PlayerCore {
 
   private:
     void take_text(const ShownScene& shown);
-    void note_price();
+    void note_stop();
     void order_thumbnails();
     void take_scene(std::unique_ptr<ShownScene> shown);
     void take_swap(ShownScene& shown);

@@ -44,18 +44,29 @@ std::vector<const raytrace::AovPlane*> planes_of(const raytrace::Film& film,
     return planes;
 }
 
+struct Range {
+    float low = 0, high = 1;
+};
+
+// The least and the largest; 0 to 1 where there are none.
+Range range_of(const std::vector<float>& numbers) {
+    Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+    for (float v : numbers) {
+        if (!std::isfinite(v)) continue;
+        range.low = std::min(range.low, v);
+        range.high = std::max(range.high, v);
+    }
+    if (!(range.low <= range.high)) return {};
+    if (range.low == range.high) range.high = range.low + 1;
+    return range;
+}
+
 // Numbers as grays or false colors from their least to their largest.
 raytrace::Film of_numbers(const raytrace::Film& film, const std::vector<float>& numbers,
                           bool in_color) {
-    float low = std::numeric_limits<float>::infinity(), high = -low;
-    for (float v : numbers) {
-        if (!std::isfinite(v)) continue;
-        low = std::min(low, v);
-        high = std::max(high, v);
-    }
-    float range = high > low ? high - low : 1.0f;
+    const Range range = range_of(numbers);
     return film_of(film.width, film.height, [&](size_t k) {
-        float at = (numbers[k] - low) / range;
+        float at = (numbers[k] - range.low) / (range.high - range.low);
         return vec4(in_color ? false_color(at) : vec3(at), 1.0f);
     });
 }
@@ -79,15 +90,19 @@ raytrace::Film of_guide(const raytrace::Film& film, const PictureGuide& guide,
     });
 }
 
-// Heat: false colors from 0 to what only one pixel in fifty exceeds, which an interrupted thread
-// may. Costs of a smaller film are enlarged as they are.
+// What only one pixel in fifty exceeds, which an interrupted thread may; 1 if that is 0.
+float hot(std::vector<float> numbers) {
+    auto most = numbers.begin() + std::ptrdiff_t(numbers.size() - 1 - numbers.size() / 50);
+    std::nth_element(numbers.begin(), most, numbers.end());
+    return *most > 0 ? *most : 1.0f;
+}
+
+// Heat: false colors from 0 to hot(). Costs of a smaller film are enlarged as they are.
 raytrace::Film of_costs(const raytrace::Film& film, const PixelCosts& costs,
                         const std::string& aov) {
     if (costs.empty()) return raytrace::Film(film.width, film.height);
-    std::vector<float> numbers = cost_numbers(costs, aov), sorted = numbers;
-    auto most = sorted.begin() + std::ptrdiff_t(sorted.size() - 1 - sorted.size() / 50);
-    std::nth_element(sorted.begin(), most, sorted.end());
-    const float scale = *most > 0 ? 1 / *most : 1.0f;
+    const std::vector<float> numbers = cost_numbers(costs, aov);
+    const float scale = 1 / hot(numbers);
     return film_of(film.width, film.height, [&](size_t k) {
         const size_t x = k % size_t(film.width) * size_t(costs.width) / size_t(film.width);
         const size_t y = k / size_t(film.width) * size_t(costs.height) / size_t(film.height);
@@ -164,10 +179,19 @@ const Bytes& bytes_of(ColorEncoding encoding) {
 
 void put_kept(const Picture& kept, double wipe_at, int width, int height,
               std::vector<uint8_t>& out) {
-    if (kept.width != width || kept.height != height) return;
-    size_t bytes = 4 * size_t(std::lround(std::clamp(wipe_at, 0.0, 1.0) * width));
-    for (size_t y = 0; y < size_t(height); ++y)
-        std::memcpy(&out[4 * y * size_t(width)], &kept.rgba[4 * y * size_t(width)], bytes);
+    if (kept.width <= 0 || kept.height <= 0) return;
+    const auto columns = size_t(std::lround(std::clamp(wipe_at, 0.0, 1.0) * width));
+    const auto wide = size_t(kept.width), high = size_t(kept.height);
+    for (size_t y = 0; y < size_t(height); ++y) {
+        const uint8_t* from = &kept.rgba[4 * (y * high / size_t(height)) * wide];
+        uint8_t* to = &out[4 * y * size_t(width)];
+        if (kept.width == width) {
+            std::memcpy(to, from, 4 * columns);
+            continue;
+        }
+        for (size_t x = 0; x < columns; ++x)  // the window has another size by now
+            std::memcpy(to + 4 * x, from + 4 * (x * wide / size_t(width)), 4);
+    }
 }
 
 }  // namespace
@@ -241,6 +265,48 @@ std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& plan
     names.insert(names.end(), {"depth", "Ng", "surface"});
     for (const CostRow& row : kCosts) names.emplace_back(row.name);
     return names;
+}
+
+std::optional<NumberScale> number_scale(const raytrace::Film& film, const PictureGuide& guide,
+                                        const PixelCosts& costs, const DisplaySettings& settings) {
+    const std::string& aov = settings.aov;
+    if (shows_costs(aov)) {
+        if (costs.empty()) return std::nullopt;
+        return NumberScale{0, double(hot(cost_numbers(costs, aov))), true};
+    }
+    const auto planes = planes_of(film, aov);
+    if (aov == "depth" || (!aov.empty() && !shows_guide(aov) && planes.size() == 1)) {
+        const Range range = range_of(aov == "depth" ? guide.depth : planes[0]->values);
+        return NumberScale{double(range.low), double(range.high), settings.false_color};
+    }
+    if (!settings.false_color || shows_guide(aov)) return std::nullopt;
+    return NumberScale{0, 1, true};  // of luminances
+}
+
+std::vector<float> shown_numbers(const Picture& picture, const std::string& aov, double x,
+                                 double y) {
+    const raytrace::Film& film = picture.film;
+    auto at = [&](int width, int height) {
+        const int column = std::clamp(int(x * width), 0, width - 1);
+        return size_t(std::clamp(int(y * height), 0, height - 1)) * size_t(width) + size_t(column);
+    };
+    if (shows_costs(aov)) {
+        if (picture.costs.empty()) return {};
+        return {cost_numbers(picture.costs, aov)[at(picture.costs.width, picture.costs.height)]};
+    }
+    if (shows_guide(aov)) {
+        const size_t k = at(picture.width, picture.height);
+        const PictureGuide& guide = picture.guide;
+        if (k >= guide.surface.size() || guide.surface[k] == kNone) return {};
+        if (aov == "depth") return {guide.depth[k]};
+        if (aov == "surface") return {float(guide.surface[k])};
+        return {guide.Ng[k].x, guide.Ng[k].y, guide.Ng[k].z};
+    }
+    std::vector<float> numbers;
+    if (aov.empty() || film.width <= 0 || film.height <= 0) return numbers;
+    for (const raytrace::AovPlane* plane : planes_of(film, aov))
+        numbers.push_back(plane->values[at(film.width, film.height)]);
+    return numbers;
 }
 
 vec3 false_color(float value) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct DisplaySettings {
     std::string aov;  // a parameter of surfaces, or a name of below; "" the picture
     bool false_color = false;
     ColorEncoding encoding = ColorEncoding::Srgb;
-    std::shared_ptr<const Picture> kept;  // shown left of `wipe_at`, if of the same size
+    std::shared_ptr<const Picture> kept;  // shown left of `wipe_at`, as large as the picture
     double wipe_at = 0.5;
     std::shared_ptr<const PixelStory> rays;  // drawn over the picture; for RenderLoop
 
@@ -33,6 +34,14 @@ bool shows_costs(const std::string& aov);
 std::vector<float> cost_numbers(const PixelCosts& costs, const std::string& aov);
 // All that `aov` takes: "" first, the film's own, then those of guide and costs.
 std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& planes);
+
+// What the colors of such a picture stand for; nothing where they are no numbers.
+std::optional<NumberScale> number_scale(const raytrace::Film& film, const PictureGuide& guide,
+                                        const PixelCosts& costs, const DisplaySettings& settings);
+// The numbers of an AOV at a place, in shares of the picture's width and height; none: "" or
+// nothing there.
+std::vector<float> shown_numbers(const Picture& picture, const std::string& aov, double x,
+                                 double y);
 
 // Fills `out`, RGBA of the film's size. Plain and without AOV: to_8_bit, the bytes of a PNG.
 void display(const raytrace::Film& film, const PictureGuide& guide, const PixelCosts& costs,

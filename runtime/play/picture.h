@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct PictureGuide {
     }
 };
 
+// What colors stand for that show numbers: from black or blue to white or red.
+struct NumberScale {
+    double low = 0, high = 1;
+    bool in_color = false;  // false_color(); else grays
+};
+
 struct Picture {
     uint64_t serial = 0;        // grows by one with each picture
     int width = 0, height = 0;  // as shown
@@ -36,6 +43,7 @@ struct Picture {
     raytrace::Film film;
     PictureGuide guide;     // empty where nothing was asked of it
     PixelCosts costs;       // of the film's size; empty where nobody asked
+    std::optional<NumberScale> numbers;  // where `rgba` shows some
     raytrace::Camera view;  // that made it
     dvec3 origin{0.0};      // of the view's space, in the world
     double frame = 0;       // of the scene's time
@@ -43,6 +51,8 @@ struct Picture {
     int samples = 0;  // a pixel
     // All samples that kinora-render takes, at full size: the same bits as in its file.
     bool refined = false;
+    bool quick = false;  // the first of its view: as while something moves
+    double ms = 0;       // that it took
 };
 
 // ms that the last frames took. The rows of the HUD.

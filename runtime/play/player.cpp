@@ -86,9 +86,10 @@ CommandResult Player::run(std::string_view word, const std::vector<std::string>&
         return refused(unknown_name("command", std::string(word), known));
     }
     if (CommandResult fits = check(*command, arguments); !fits.done) return fits;
+    const TimeState before = core_->state.time;
     CommandResult result = core_->act(size_t(command - commands().data()), arguments);
     core_->send_order();
-    if (result.done) core_->record_line(*command, arguments);
+    if (result.done) core_->record_line(*command, arguments, before);
     return result;
 }
 

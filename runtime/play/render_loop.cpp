@@ -40,6 +40,7 @@ void measure_costs(FrameSettings& settings, PixelCosts& costs) {
 // The film as the picture shows it, and rays over it.
 void show_film(const raytrace::Film& film, const DisplaySettings& settings, Picture& to) {
     display(film, to.guide, to.costs, settings, to.rgba);
+    to.numbers = number_scale(film, to.guide, to.costs, settings);
     if (settings.rays)
         draw_rays(settings.rays->rays, to.view, to.origin, to.width, to.height, to.rgba);
 }
@@ -52,6 +53,7 @@ struct RenderLoop::Memory {
     uint64_t serial = 0;
     raytrace::Film enlarged;
     Pacer pacer;
+<<<<<<< HEAD
     FirstHits first;  // of the picture in work
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
@@ -62,6 +64,9 @@ struct RenderLoop::Memory {
     void follow(const Step& step);
     std::unique_ptr<Scene> closer;  // displaced meshes diced for the refined picture
     std::shared_ptr<ShownScene> closer_of;
+=======
+    std::optional<ViewOrder> dices_for;  // what the redicer was started for; none: a smaller picture
+>>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
 };
 
 // Pictures of anything else say nothing about the next one.
@@ -367,7 +372,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     try {
         outcome.whole = step.pass == Pass::Refined
                             ? render_refined(step, settings, *to, stats)
-                            : render(step, *shown.scene, settings, *to, stats);
+                            : render_quick(step, settings, *to, stats);
     } catch (const std::bad_alloc&) {
         std::lock_guard lock(mutex_);
         findings_.push_back(plain_finding("MEMORY", "there is not enough memory for the picture"));
@@ -398,7 +403,13 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         to->refined = step.scale == 1 && step.samples == step.whole_samples &&
                       (step.pass == Pass::Refined || step.whole_samples == 1);
         finish_picture(step, *to);
+<<<<<<< HEAD
         times.present = present.ms() + filter;
+=======
+        times.present = present.ms();
+        to->quick = step.pass == Pass::Quick;
+        to->ms = watch.ms();
+>>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
         publish(std::move(to));
     }
     times.total = watch.ms();
@@ -415,6 +426,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
 bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
                         FrameStats& stats) {
     Diagnostics& diagnostics = *step.scene->diagnostics;
+    scene.camera = step.scene->scene->camera;
+    step.scene->posed = &scene;
     bool whole = render_frame(scene, seconds_of(step.scene->rate, step.order.frame), settings,
                               to.film, stats, diagnostics);
     std::vector<FindingText> found = kinora::take_findings(diagnostics);
@@ -422,6 +435,41 @@ bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, 
         std::lock_guard lock(mutex_);
         findings_.insert(findings_.end(), found.begin(), found.end());
     }
+    return whole;
+}
+
+// Diced for the scene's view as it stands. `exact`: the refined picture's own.
+void RenderLoop::dice_closer(const Step& step, const FrameSettings& settings, bool exact) {
+    ShownScene& shown = *step.scene;
+    CloserView view{seconds_of(shown.rate, step.order.frame), {}};
+    if (settings.camera) view.camera = shown.seen().view;
+    shown.redicer->start(view);
+    memory_->dices_for.reset();
+    if (exact) memory_->dices_for = step.order;
+}
+
+void RenderLoop::take_closer(ShownScene& shown) {
+    std::unique_ptr<Scene> closer = shown.redicer->take(*shown.diagnostics);
+    shown.closer_view.reset();
+    if (!closer) return;
+    if (shown.posed == shown.closer.get()) shown.posed = nullptr;
+    shown.closer = std::move(closer);
+    shown.closer_view = memory_->dices_for;
+}
+
+// With the finest meshes there are; while the camera comes closer, finer ones are diced meanwhile.
+bool RenderLoop::render_quick(const Step& step, const FrameSettings& settings, Picture& to,
+                              FrameStats& stats) {
+    ShownScene& shown = *step.scene;
+    const bool dices = real_time_ && shown.redicer;
+    if (dices && shown.redicer->running() && shown.redicer->ready()) take_closer(shown);
+    Scene& scene = dices && shown.closer ? *shown.closer : *shown.scene;
+    const bool whole = render(step, scene, settings, to, stats);
+    // In edges of the scene as loaded: the closer one may have had to be coarser.
+    const double error = stats.dice_error * scene.dice.pixels / shown.scene->dice.pixels;
+    const bool known = shown.closer_view && shown.closer_view->same_picture(step.order);
+    if (dices && whole && error > kMostDiceError && !known && !shown.redicer->running())
+        dice_closer(step, settings, step.scale == 1);
     return whole;
 }
 
@@ -434,19 +482,22 @@ bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings,
     fine.most_dice_error = shown.redicer ? kMostDiceError : 0;
     if (render(step, *shown.scene, fine, to, stats)) return true;
     if (!stats.too_coarse || stop_) return false;
-    double pixels = stats.dice_error * shown.scene->dice.pixels;
-    CloserView view{seconds_of(shown.rate, step.order.frame), {}};
-    if (settings.camera) view.camera = shown.scene->view;
-    shown.redicer->start(view);
-    while (!shown.redicer->ready() && !stop_)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (stop_) return false;  // the next start() gives it up
-    memory_->closer = shown.redicer->take(*shown.diagnostics);
-    memory_->closer_of = step.scene;
-    if (memory_->closer) {
-        memory_->closer->camera = shown.scene->camera;
-        fine.most_dice_error = pixels / memory_->closer->dice.pixels;
-        if (render(step, *memory_->closer, fine, to, stats)) return true;
+    const double pixels = stats.dice_error * shown.scene->dice.pixels;
+    const auto is_this = [&](const std::optional<ViewOrder>& view) {
+        return view && view->same_picture(step.order);
+    };
+    if (!shown.closer || !is_this(shown.closer_view)) {
+        if (!shown.redicer->running() || !is_this(memory_->dices_for))
+            dice_closer(step, settings, true);
+        while (!shown.redicer->ready() && !stop_)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        if (stop_) return false;  // it goes on; the next start() may give it up
+        shown.closer.reset();
+        take_closer(shown);
+    }
+    if (shown.closer) {
+        fine.most_dice_error = pixels / shown.closer->dice.pixels;
+        if (render(step, *shown.closer, fine, to, stats)) return true;
         if (stop_) return false;
     }
     fine.most_dice_error = 0;
@@ -463,16 +514,21 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     to.width = step.order.width;
     to.height = step.order.height;
     to.frame = step.order.frame;
-    to.view = step.scene->scene->view;
-    to.origin = step.scene->scene->origin;
+    const Scene& scene = step.scene->seen();
+    to.view = scene.view;
+    to.origin = scene.origin;
     const raytrace::Film* film = &to.film;
     bool small = film->width != to.width || film->height != to.height;
     if (shows_guide(step.display.aov))
+<<<<<<< HEAD
         make_guide(*step.scene->scene, to.width, to.height, to.guide);
     else if (small && 2 * film->width >= to.width)
         take_guide(memory_->first, to.view, to.guide);
+=======
+        make_guide(scene, to.width, to.height, to.guide);
+>>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
     else if (small)  // a quarter of the rays says where the edges are
-        make_guide(*step.scene->scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
+        make_guide(scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
     else
         to.guide = {};
     if (small) {

@@ -77,6 +77,10 @@ class RenderLoop {
     Outcome make(const Step& step);
     bool render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
                 FrameStats& stats);
+    bool render_quick(const Step& step, const FrameSettings& settings, Picture& to,
+                      FrameStats& stats);
+    void dice_closer(const Step& step, const FrameSettings& settings, bool exact);
+    void take_closer(ShownScene& shown);
     bool render_refined(const Step& step, const FrameSettings& settings, Picture& to,
                         FrameStats& stats);
     bool is_filtered(const Step& step) const;

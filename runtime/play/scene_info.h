@@ -25,8 +25,12 @@ struct NodeInfo {
     std::vector<std::string> materials;
 };
 
+// A shader and who wears it: materials with the surface that is seen come first, in the order of
+// the description.
 struct MaterialInfo {
-    std::string id, name, shader;                    // the surface's
+    std::string id, name, shader;                    // ShaderPlace's; the shader's name
+    std::string target;                              // in front of ".PARAMETER"
+    bool further = false;                            // no material's surface
     std::shared_ptr<const ShaderSourceText> source;  // its text as read; null: none
     std::vector<ShaderParamInfo> params;
 };

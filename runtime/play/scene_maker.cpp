@@ -9,6 +9,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/description/findings.h"
+#include "runtime/images/texture_store.h"
 #include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
@@ -267,6 +268,8 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
         swapper_.emplace(*built.scene, std::move(edited), base_->description.values.size());
     shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
+    shown.scene->textures->each_image(
+        [&](const StoredImage& image) { shown.files.push_back(image.path); });
     shown.redicer = std::move(built.redicer);
     shown.settings = frame_settings(request_, *shown.scene, diagnostics);
     auto info = scene_info(*shown.scene, {base_->description, texts_}, request_, shown.rate);

@@ -37,6 +37,7 @@ struct ShaderParamInfo {
 
 struct ShaderDocument {
     std::string material;   // "" nothing is being edited
+    std::string wearer;     // whose edit the text is: of all that wear it, the first
     std::string file;       // what `save` writes
     std::string name;       // FindingText::file of findings in the text
     bool embedded = false;  // in the scene's file, between <code> tags

@@ -8,6 +8,7 @@
 #include "anim/animation.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/play/display.h"
+#include "runtime/play/session/shader_places.h"
 #include "runtime/shading/shader_instance.h"
 
 namespace kinora {
@@ -127,34 +128,50 @@ void add_curves(const SceneDescription& description, double begin, double end,
     }
 }
 
-void add_curves(const Scene& scene, std::vector<MaterialInfo>& materials) {
+void add_curves(const Scene& scene, std::span<const ShaderPlace> places,
+                std::vector<MaterialInfo>& materials) {
     std::vector<Animated> params;
     for (size_t m = 0; m < materials.size(); ++m)
         for (ShaderParamInfo& info : materials[m].params) {
             if (!info.animated) continue;
-            for (const ParamSource& source : scene.description->materials[m].surfaces.back().params)
+            for (const ParamSource& source : places[m].use->params)
                 if (source.name == info.name) params.push_back({&info, source.value});
         }
     add_curves(*scene.description, scene.options.start_time, scene.options.end_time, params);
 }
 
+// The text that the shader of a place was read from; null where there was none.
+const rsl::Shader* as_read(const SceneDescription& description,
+                           std::span<const ShaderPlace> further, const ShaderPlace& place,
+                           size_t index, size_t materials) {
+    if (index < materials)
+        return index < description.materials.size() ? shown_surface(description.materials[index])
+                                                    : nullptr;
+    auto found = std::ranges::find(further, place.id, &ShaderPlace::id);
+    return found == further.end() ? nullptr : found->use->shader.get();
+}
+
 std::vector<MaterialInfo> material_infos(const Scene& scene, const SceneRead& read) {
+    const std::vector<ShaderPlace> places = shader_places(*scene.description),
+                                   further = further_places(read.description);
+    const size_t materials = scene.description->materials.size();
     std::vector<MaterialInfo> infos;
-    for (const MaterialDefinition& material : scene.description->materials) {
+    for (size_t k = 0; k < places.size(); ++k) {
+        const ShaderPlace& place = places[k];
         MaterialInfo& info = infos.emplace_back();
-        info.id = material.id;
-        info.name = material.name.empty() ? material.id : material.name;
-        const rsl::Shader* shader = shown_surface(material);
-        if (!shader) continue;
-        info.shader = shader->name;
-        for (const rsl::ShaderParameter& parameter : shader->parameters)
+        info.id = place.id;
+        info.name = place.name;
+        info.target = place.target;
+        info.further = k >= materials;
+        if (!place.use || !place.use->shader) continue;
+        info.shader = place.use->shader->name;
+        for (const rsl::ShaderParameter& parameter : place.use->shader->parameters)
             info.params.push_back(
-                param_info(*scene.description, scene.values, material.surfaces.back(), parameter));
-        size_t at = infos.size() - 1;
-        if (at >= read.description.materials.size()) continue;
-        if (const rsl::Shader* as_read = shown_surface(read.description.materials[at]))
-            info.source = std::make_shared<const ShaderSourceText>(source_of(*as_read, read.files));
+                param_info(*scene.description, scene.values, *place.use, parameter));
+        if (const rsl::Shader* shader = as_read(read.description, further, place, k, materials))
+            info.source = std::make_shared<const ShaderSourceText>(source_of(*shader, read.files));
     }
+    add_curves(scene, places, infos);
     return infos;
 }
 
@@ -198,7 +215,7 @@ std::vector<FindingText> take_findings(Diagnostics& diagnostics) {
 std::shared_ptr<SceneInfo> swapped_info(const SceneInfo& before, const SceneDescription& edited) {
     auto info = std::make_shared<SceneInfo>(before);
     ++info->serial;
-    for (size_t m = 0; m < info->materials.size(); ++m) {
+    for (size_t m = 0; m < std::min(info->materials.size(), edited.materials.size()); ++m) {
         const MaterialDefinition& material = edited.materials[m];
         const rsl::Shader* shader = shown_surface(material);
         if (!shader) continue;
@@ -234,7 +251,6 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
         info->clips.push_back({clip.name, clip.start * rate.value(), clip.end * rate.value()});
     info->nodes = node_infos(scene);
     info->materials = material_infos(scene, read);
-    add_curves(scene, info->materials);
     std::vector<raytrace::AovPlane> planes;
     for (const OutputPlane& plane : scene.outputs)
         planes.push_back({plane.name, raytrace::AovFilter::Mean, {}, plane.in_file});

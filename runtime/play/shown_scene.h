@@ -12,6 +12,7 @@
 #include "runtime/play/session/places.h"
 #include "runtime/play/session/scene_edits.h"
 #include "runtime/play/shader_document.h"
+#include "runtime/play/view_order.h"
 #include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
@@ -29,6 +30,9 @@ struct ShownScene {
     std::unique_ptr<Scene> scene;           // null: it could not be made; `findings` say why
     std::optional<SwappedShaders> swapped;  // in place of a scene
     std::unique_ptr<Redicer> redicer;       // null where nothing is diced
+    std::unique_ptr<Scene> closer;          // with displaced meshes diced for a nearer view
+    std::optional<ViewOrder> closer_view;   // the picture that it was diced for; none: a smaller one
+    Scene* posed = nullptr;                 // the one of both that made the last picture
     FrameSettings settings;                 // as kinora-render has them for the request
     std::shared_ptr<const SceneInfo> info;
     std::unique_ptr<Diagnostics> diagnostics;  // findings to come
@@ -37,6 +41,8 @@ struct ShownScene {
     double build_ms = 0;                       // of edits and build, or swap
     int exit_code = 0;                         // kinora-render's, where it could not be made
     bool replaces_camera = true;               // another scene, not the same one changed
+
+    Scene& seen() const { return posed ? *posed : *scene; }
 };
 
 FindingText finding_text(const Finding& finding, const SourceFiles& files);

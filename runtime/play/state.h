@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
+#include "runtime/play/board/trade_board.h"
 #include "runtime/play/session/free_camera.h"
 
 namespace kinora {
@@ -49,7 +50,7 @@ struct PictureState {
     bool filter = true;        // the noise of pictures that are not refined
     bool refine = true;        // to the quality of kinora-render when nothing moves
     std::string quality;       // the preset; "" single options were put over one
-    std::vector<std::pair<std::string, double>> prices;  // ms of the last refined picture of each
+    std::vector<TradeStop> stops;  // while the panel `quality` is open: of this view
     std::string light;     // the one that shines alone, as the scene lists it; "" all
     std::string wipe;      // the picture kept by `keep`, left of `wipe_at`; "" none
     double wipe_at = 0.5;  // share of the width
@@ -74,12 +75,28 @@ struct Selection {
 
 struct Explained;  // runtime/explain/explain.h
 
+// Where a finding leads that stands in no text of a shader.
+struct SourcePlace {
+    std::string file;
+    int line = 0, column = 0;  // from 1
+    std::string printed;       // the finding as programs print it
+};
+
+// The panel that comes to the front of its area whenever `times` grows.
+struct RaisedPanel {
+    std::string name;
+    int times = 0;
+};
+
 struct PlayerState {
     CameraState camera;
     TimeState time;
     PictureState picture;
     Selection selection;
     std::vector<std::string> panels;  // open ones, by name
+    RaisedPanel raised;
+    size_t finding = 0;  // the one that `finding` led to last, from 1
+    SourcePlace place;   // what the panel `source` shows
     // What the scene models and leaves out, of when it was asked for last; null: never.
     std::shared_ptr<const std::vector<Explained>> explained;
     int files_written = 0;

@@ -39,6 +39,11 @@ size_t count(std::string_view text, std::string_view word) {
     return n;
 }
 
+bool is_xml(std::string_view text) {
+    std::string_view head = text.substr(0, 4096);
+    return head.find("<COLLADA") != head.npos || head.find("<?xml") != head.npos;
+}
+
 // The element around `at`: from behind its tag to before its end.
 std::optional<std::pair<size_t, size_t>> element_around(std::string_view xml, size_t at,
                                                         std::string_view name) {
@@ -92,6 +97,15 @@ bool is_same(const std::string& file, std::string_view bytes) {
 }
 
 }  // namespace
+
+TextRange text_range(const rsl::Shader& shader, const SourceFiles& files) {
+    const Location where = shader.definition ? shader.definition->span.where : Location{};
+    if (where.file >= files.count() || !library_shader_text(shader.name).empty()) return {};
+    const std::string_view text = files.text(where.file);
+    if (!is_xml(text)) return {where.file, 0, text.size()};
+    const auto code = element_around(text, where.begin, "code");
+    return code ? TextRange{where.file, code->first, code->second} : TextRange{};
+}
 
 std::string xml_text(const std::string& text, bool cdata) {
     std::string out(cdata ? kOpen : "");
@@ -147,8 +161,7 @@ ShaderSourceText source_of(const rsl::Shader& shader, const SourceFiles& files) 
     }
     source.file = file;
     if (!readable) source.why_fixed = "its file is not there, or is packed in another";
-    std::string_view head = text.substr(0, std::min<size_t>(text.size(), 4096));
-    if (head.find("<COLLADA") != head.npos || head.find("<?xml") != head.npos) {
+    if (is_xml(text)) {
         source.name = file + ":" + source.name;
         take_embedded(text, where.begin, source);
         return source;

@@ -24,6 +24,15 @@ struct ShaderSourceText {
 // Of a checked shader, from the texts that it was compiled from.
 ShaderSourceText source_of(const rsl::Shader& shader, const SourceFiles& files);
 
+// The text around a place: an element <code>, or the whole file.
+struct TextRange {
+    FileId file = kNoFile;
+    size_t begin = 0, end = 0;
+    bool operator==(const TextRange&) const = default;
+};
+// Where a shader is defined; kNoFile where it is one of ours, or nobody knows.
+TextRange text_range(const rsl::Shader& shader, const SourceFiles& files);
+
 // A material whose effect's embedded text has an error, so that there is no shader.
 struct BrokenShader {
     std::string material;  // its id

@@ -1,9 +1,15 @@
-// runtime/play/free_camera.cpp: a camera moved by hand.
+// runtime/play/session/free_camera.cpp: a camera moved by hand.
 #include "runtime/play/session/free_camera.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <vector>
+
+#include "runtime/load/override_scene.h"
 
 namespace kinora {
 
@@ -138,6 +144,34 @@ void look_along(FreeCamera& camera, AxisView view, UpAxis up_axis) {
 
 dvec3 up_of(UpAxis axis) {
     return {axis == UpAxis::X, axis == UpAxis::Y, axis == UpAxis::Z};
+}
+
+std::string camera_text(const FreeCamera& c) {
+    return fmt::format("{} {} {}  {}  {} {} {}  {} {} {}  {} {} {}  {} {} {} {:d}", c.pivot.x,
+                       c.pivot.y, c.pivot.z, c.distance, c.axes[0].x, c.axes[0].y, c.axes[0].z,
+                       c.axes[1].x, c.axes[1].y, c.axes[1].z, c.axes[2].x, c.axes[2].y,
+                       c.axes[2].z, c.half_height, c.znear, c.zfar, c.parallel);
+}
+
+std::optional<FreeCamera> camera_of(const std::string& text) {
+    constexpr size_t kLeast = 13, kMost = 17;
+    constexpr double kSkew = 1e-6;
+    const std::optional<std::vector<double>> n = parse_numbers(text);
+    if (!n || n->size() < kLeast || n->size() > kMost) return std::nullopt;
+    const auto triple = [&](size_t k) { return dvec3((*n)[k], (*n)[k + 1], (*n)[k + 2]); };
+    FreeCamera c;
+    c.pivot = triple(0);
+    c.distance = (*n)[3];
+    c.axes = {triple(4), triple(7), triple(10)};
+    if (n->size() > 13) c.half_height = (*n)[13];
+    if (n->size() > 14) c.znear = (*n)[14];
+    if (n->size() > 15) c.zfar = (*n)[15];
+    c.parallel = n->size() > 16 && (*n)[16] != 0;
+    bool upright = c.distance > 0 && c.half_height > 0;
+    for (int k = 0; k < 3; ++k)  // of length 1, each at a right angle to the next
+        upright &= std::abs(glm::dot(c.axes[k], c.axes[k]) - 1) < kSkew &&
+                   std::abs(glm::dot(c.axes[k], c.axes[(k + 1) % 3])) < kSkew;
+    return upright ? std::optional(c) : std::nullopt;
 }
 
 }  // namespace kinora

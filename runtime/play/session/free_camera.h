@@ -1,6 +1,9 @@
 // runtime/play/session/free_camera.h: a camera that is moved by hand: it looks at a pivot.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "raytrace/camera.h"
 #include "runtime/base/math.h"
 #include "runtime/description/scene_description.h"
@@ -43,5 +46,10 @@ enum class AxisView : uint8_t { Front, Back, Right, Left, Top, Bottom };
 void look_along(FreeCamera& camera, AxisView view, UpAxis up_axis);
 
 dvec3 up_of(UpAxis axis);
+
+// A camera as numbers: pivot, distance, right, up, back, half height, near, far, 1 where it is
+// parallel; those behind `back` may be left out. Nothing where they are no camera.
+std::string camera_text(const FreeCamera& camera);
+std::optional<FreeCamera> camera_of(const std::string& text);
 
 }  // namespace kinora

@@ -14,12 +14,13 @@ namespace kinora {
 // Undo keeps the edits of before.
 struct SceneEdits {
     struct Text {
-        std::string material, file, text;
+        std::string material, file, text;  // `material`: ShaderPlace::id
         uint64_t version = 0;  // of ShaderDocument
+        bool alone = false;    // others that wear the text as it was read keep that
         bool operator==(const Text&) const = default;
     };
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL, FILE.sl or one of ours
-    std::vector<Text> texts;                                   // one a material: of its surface
+    std::vector<Text> texts;                                   // one a shader place
     std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
     std::vector<std::string> hidden;                           // nodes, by id
 
@@ -31,7 +32,7 @@ struct EditedShaders {
     struct Row {
         SceneEdits::Text text;
         FileId file = kNoFile;
-        std::shared_ptr<const rsl::Shader> shader;
+        std::vector<std::shared_ptr<const rsl::Shader>> shaders;
     };
     std::vector<Row> rows;
 };

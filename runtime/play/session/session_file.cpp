@@ -96,7 +96,10 @@ Json json_of(const SceneEdits& edits) {
     Json json{{"shaders", edits.shaders}, {"params", edits.params}, {"hidden", edits.hidden}};
     Json& texts = json["texts"] = Json::array();
     for (const SceneEdits::Text& text : edits.texts)
-        texts.push_back({{"material", text.material}, {"file", text.file}, {"text", text.text}});
+        texts.push_back({{"material", text.material},
+                         {"file", text.file},
+                         {"text", text.text},
+                         {"alone", text.alone}});
     return json;
 }
 
@@ -193,8 +196,10 @@ SceneEdits edits_of(const Reader& json) {
     edits.params = json.member("params").pairs();
     edits.hidden = json.member("hidden").texts();
     for (const Reader& text : json.member("texts").list())
-        edits.texts.push_back({text.member("material").text(), text.member("file").text(),
-                               text.member("text").text(), 0});
+        edits.texts.push_back(
+            {text.member("material").text(), text.member("file").text(),
+             text.member("text").text(), 0,
+             text.has("alone") && text.member("alone").as<bool>("true or false")});
     return edits;
 }
 

@@ -83,24 +83,26 @@ class Session:
     def act(self, word, row, menus):
         """The row by its key, its menu entry, or its name; and as a line of a script."""
         done = self.count(word)
-        if row.keys:
+        line = f"{word} {row.example}".strip()
+        if row.keys and row.arguments and not row.arguments.startswith("["):
+            opened = self.count("commands")
+            self.window.key(xdotool_key(row.keys))  # the palette waits for the arguments
+            self.window.recorded(self.record, "^commands$", opened + 1)
+            self.finish_line(line, line.split(" ", 1)[1])
+        elif row.keys:
             self.window.key(xdotool_key(row.keys))
             self.lines.append(word)
         elif row.menu:
             self.click_menu(row.menu, menus)
             self.lines.append(word)
         else:
-            opened, closed = self.count("commands"), self.count("panel commands")
+            opened = self.count("commands")
             self.window.key("ctrl+p")
             self.window.recorded(self.record, "^commands$", opened + 1)
-            self.settle()
-            line = f"{word} {row.example}".strip()
-            self.window.type(line)
-            self.window.key("Return")
-            self.lines += ["commands", line, "panel commands"]
-            self.window.recorded(self.record, "^panel commands$", closed + 1)
+            self.finish_line(line, line)
         self.window.recorded(self.record, rf"^{word}\b", done + 1)
 
+<<<<<<< HEAD
     def opened_menu(self, before, x):
         """The first and the last line of the menu that opens under its title, as soon as it is drawn and stays. What
         changes far below it, as a message that goes, is none of it."""
@@ -119,6 +121,16 @@ class Session:
             last = menu
             time.sleep(0.15)
         raise AssertionError("no menu opens")
+=======
+    def finish_line(self, line, typed):
+        """The palette is open: what is typed makes it that line."""
+        closed = self.count("panel commands")
+        self.settle()
+        self.window.type(typed)
+        self.window.key("Return")
+        self.lines += ["commands", line, "panel commands"]
+        self.window.recorded(self.record, "^panel commands$", closed + 1)
+>>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
 
     def click_menu(self, path, menus):
         """The title is the menu's place among the words of the bar, the entry its place in the menu."""

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """tests/programs/play/play_window_test.py: kinora-play in a window, with real keys and a real mouse."""
+import json
 import os
 import re
 import shutil
@@ -46,9 +47,9 @@ class WindowTest(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         shutil.rmtree(self.display.folder / "config", ignore_errors=True)
 
-    def open(self, scene, *words):
+    def open(self, scene, *words, **options):
         self.record = self.folder / "session.txt"
-        window = displays.Window(self.display, PROGRAM, scene, "--record", self.record, *words)
+        window = displays.Window(self.display, PROGRAM, scene, "--record", self.record, *words, **options)
         self.addCleanup(window.close)
         window.appear()
         return window
@@ -108,6 +109,83 @@ class WindowTest(unittest.TestCase):
         orbits = [tuple(map(float, m)) for m in re.findall(r"^orbit (\S+) (\S+)", text, re.M)]
         self.assertAlmostEqual(sum(right for right, _ in orbits), -0.4 * 60, delta=0.01)
         self.assertAlmostEqual(sum(up for _, up in orbits), 0.4 * 30, delta=0.01)
+
+    def test_the_mouse_looks_flies_and_wipes(self):
+        window = self.open(MATTE)
+        self.drawn(PICTURE)
+        self.display.xdotool("keydown", "ctrl")
+        window.drag(500, 300, 560, 330)
+        self.display.xdotool("keyup", "ctrl")
+        window.recorded(self.record, "^look ")
+        # With the right button held, letters move the camera and are no commands.
+        self.display.xdotool("mousemove", 560, 300, "mousedown", 3, "keydown", "w", "keydown", "d")
+        window.recorded(self.record, r"^fly 0\.\d+ 0 0\.\d+", 3)
+        self.display.xdotool("mousemove", 600, 300)
+        window.recorded(self.record, "^look ", 2)
+        self.display.xdotool("keyup", "w", "keyup", "d", "keydown", "a", "sleep", 0.3, "keyup", "a", "mouseup", 3)
+        window.recorded(self.record, r"^fly -0\.\d+ 0 0$")
+        window.key("ctrl+k")
+        window.recorded(self.record, "^keep$")
+        window.wait_still(20, 1)
+        middle = (PICTURE[0] + PICTURE[2]) // 2
+        window.drag(middle, 400, middle - 150, 400)
+        text = window.recorded(self.record, r"^wipe 0\.2\d+$")
+        self.assertNotRegex(text, re.compile("^(aov|orbit|dolly)", re.M))
+        self.words(window)
+
+    def test_findings_lead_to_their_places(self):
+        scene = self.folder / "scene.dae"
+        scene.write_text(MATTE.read_text().replace("<library_effects>", "<library_nonsense/>\n<library_effects>", 1))
+        window = self.open(scene)
+        self.drawn(PICTURE)
+        window.key("F8")
+        text = window.recorded(self.record, "^finding$")
+        self.assertNotIn("panel source", text)  # the command itself opens it
+        before = self.display.rgb()
+        self.command(window, "select_material bright")
+        window.key("ctrl+e")
+        window.recorded(self.record, "^edit$")
+        self.command(window, 'type "("')
+        window.key("ctrl+shift+5")
+        window.recorded(self.record, "^show_findings$")
+        window.wait_still(20, 1)
+        self.assertGreater(changed(before, self.display.rgb(), (888, 60, 1280, 700), 1280), 500)
+        window.click(450, 640)  # the first row
+        window.recorded(self.record, "^finding 1$")
+        self.words(window)
+
+    def test_a_record_leads_to_the_same_state(self):
+        """Keys and mouse by the clock, then the record without a window: all that is observed is the same."""
+        script = self.folder / "end.txt"
+        script.write_text("")
+        window = self.open(SCENES / "walker.dae", "--quality", "preview", "--spp", "1", "--size", "96x54", "--script", "-",
+                           stdin=subprocess.PIPE)
+        self.drawn(PICTURE)
+        window.key("space")
+        window.recorded(self.record, "^play$")
+        window.drag(500, 300, 560, 330)
+        window.key("bracketright")
+        window.click(560, 330)
+        window.recorded(self.record, "^click ")
+        window.key("space")
+        window.recorded(self.record, "^play$", 2)
+        window.key("Right", "shift+c")
+        window.recorded(self.record, "^camera_lock$")
+        ends = [self.folder / "window.json", self.folder / "script.json"]
+        shots = [end.with_suffix(".png") for end in ends]
+        window.process.stdin.write(f"wait refined\nscreenshot {shots[0]}\nstate {ends[0]}\n")
+        window.process.stdin.flush()
+        window.recorded(self.record, "^state ", seconds=90)
+        recorded = self.words(window)
+        replayed = recorded.replace(str(ends[0]), str(ends[1])).replace(str(shots[0]), str(shots[1]))
+        script.write_text(replayed)
+        done = subprocess.run([PROGRAM, SCENES / "walker.dae", "--headless", "--script", script, "--quality", "preview", "--spp", "1",
+                               "--size", "96x54"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        states = [json.loads(end.read_text()) for end in ends]
+        for subject in states[0]:
+            self.assertEqual(*(re.sub(r"^scene \d+ of ", "", state[subject]) for state in states), f"{subject}: {recorded}")
+        self.assertEqual(shots[0].read_bytes(), shots[1].read_bytes())
 
     def test_help_and_palette_find_every_command(self):
         window = self.open(MATTE)

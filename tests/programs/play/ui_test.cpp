@@ -59,7 +59,7 @@ TEST(Numbers, AreShort) {
 // Names of nodes and materials come in the letters of their writers.
 TEST(Fonts, HaveLettersBeyondLatin) {
     ImGui::CreateContext();
-    const Fonts fonts = load_fonts(1);
+    const Fonts fonts = load_fonts(1, {});
     unsigned char* texels;
     int width = 0, height = 0;
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&texels, &width, &height);
@@ -70,6 +70,31 @@ TEST(Fonts, HaveLettersBeyondLatin) {
         }
     ImGui::DestroyContext();
     if (!fonts.found) GTEST_SKIP() << "DejaVu is not installed";
+}
+
+// DejaVu has Armenian and Georgian, which are loaded once a name needs them.
+TEST(Fonts, TakeTheLettersThatNamesNeed) {
+    ImGui::CreateContext();
+    Letters letters;
+    EXPECT_FALSE(letters.add("plain, \u00e9, \u0436"));
+    EXPECT_TRUE(letters.add("\u0540\u0561\u0575 \u10e5\u10d0"));
+    EXPECT_FALSE(letters.add("\u0540"));
+    EXPECT_FALSE(letters.add("\xff\xc3"));  // no UTF-8
+    EXPECT_EQ(letters.all().size(), 5u);
+    const Fonts plain = load_fonts(1, {});
+    EXPECT_FALSE(plain.found && plain.text->FindGlyphNoFallback(u'\u0540'));
+    const Fonts fonts = load_fonts(1, letters);
+    for (const ImWchar letter : letters.all()) {
+        EXPECT_TRUE(!fonts.found || fonts.text->FindGlyphNoFallback(letter)) << int(letter);
+    }
+    EXPECT_TRUE(!fonts.found || fonts.mono->FindGlyphNoFallback(u'A'));
+    ImGui::DestroyContext();
+    if (!fonts.found) GTEST_SKIP() << "DejaVu is not installed";
+}
+
+TEST(Fonts, RangesAreThoseOfNeighbours) {
+    EXPECT_EQ(ranges_of({}), std::vector<ImWchar>{0});
+    EXPECT_EQ(ranges_of({5, 6, 7, 9}), (std::vector<ImWchar>{5, 7, 9, 9, 0}));
 }
 
 class Drawn : public testing::Test {

@@ -1,6 +1,7 @@
 // tests/runtime/play/commands_test.cpp: every row of the table changes what it says it does.
 #include "runtime/play/commands.h"
 
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -10,6 +11,17 @@
 
 namespace kinora {
 namespace {
+
+// All numbers of a text, parted by spaces.
+std::string numbers_of(std::string text) {
+    for (size_t k = 0; k < text.size(); ++k) {
+        const char c = text[k];
+        const bool of_number = (c >= '0' && c <= '9') || c == '.' || c == '-' ||
+                               (c == 'e' && k > 0 && text[k - 1] >= '0' && text[k - 1] <= '9');
+        if (!of_number) text[k] = ' ';
+    }
+    return text;
+}
 
 class EveryCommand : public testing::TestWithParam<Command> {};
 
@@ -119,6 +131,51 @@ TEST(Script, RecordsWhatItCanRunAgain) {
     EXPECT_EQ(again.player.observe(Observable::Panels), "A \"b\"");
 }
 
+// By the clock, with a camera that keys move: what is recorded leads to the same state without a
+// clock. The picture that the camera was taken from may be of an earlier time.
+TEST(Script, ARecordOfTheClockLeadsToTheSameState) {
+    const std::string file = testing::TempDir() + "kinora_recorded_clock.txt";
+    std::string camera, time, playback;
+    {
+        Played played(small_request(scene_path("scenes/court.dae")), {true, false, nullptr});
+        Player& player = played.player;
+        ASSERT_TRUE(player.record_to(file));
+        ASSERT_TRUE(player.wait_picture(kLong));
+        Script script(player, "clock", [](const std::string& line) { ADD_FAILURE() << line; });
+        ASSERT_TRUE(script.run("play on\nwait 0.37\norbit 20 3\nturntable\nwait 0.21\ndolly 1.2\n"
+                               "loop pingpong\nwait 0.3\nevery_frame\nwait 0.2\npause\n"));
+        camera = player.observe(Observable::Camera);
+        time = player.observe(Observable::Time);
+        playback = player.observe(Observable::Playback);
+    }
+    Played again("scenes/court.dae");
+    EXPECT_EQ(again.script(text_of(file)), "");
+    EXPECT_EQ(again.player.observe(Observable::Time), time);
+    EXPECT_EQ(again.player.observe(Observable::Playback), playback);
+    const std::string replayed = again.player.observe(Observable::Camera);
+    EXPECT_EQ(replayed.substr(0, replayed.find("eye")), camera.substr(0, camera.find("eye")));
+    // Turned in other steps: equal but for rounding.
+    std::istringstream a(numbers_of(camera)), b(numbers_of(replayed));
+    double x = 0, y = 0;
+    int count = 0;
+    while (a >> x && b >> y) {
+        EXPECT_NEAR(x, y, 1e-6 * (1 + std::abs(x)));
+        ++count;
+    }
+    EXPECT_GE(count, 14);
+}
+
+TEST(Script, ACameraStandsAsNumbersSay) {
+    Played played("scenes/matte.dae");
+    EXPECT_EQ(played.script("orbit 20 10"), "");
+    const std::string camera = played.player.observe(Observable::Camera);
+    const std::string text = camera_text(played.player.state().camera.own);
+    EXPECT_EQ(played.script("camera; stand \"" + text + "\""), "");
+    EXPECT_EQ(played.player.observe(Observable::Camera), camera);
+    EXPECT_NE(played.script("stand \"0 0 0  1  1 0 0  1 0 0  0 0 1\""), "");  // not at right angles
+    EXPECT_NE(played.script("stand \"0 0 0 1\""), "");
+}
+
 // As a window runs them: each step returns at once, and says whether the line is done.
 TEST(Script, StepsDoNotWait) {
     Played played(small_request(scene_path("scenes/walker.dae")), {true, false, nullptr});
@@ -195,6 +252,26 @@ TEST(Edits, UndoBringsThePictureBack) {
     EXPECT_EQ(pixels(), changed);
     EXPECT_EQ(played.script("hide left"), "");
     EXPECT_NE(pixels(), changed);
+}
+
+// One drag is one change, however many steps it has.
+TEST(Edits, UndoTakesAWholeDragBack) {
+    Played played("scenes/matte.dae");
+    const std::string before = played.player.observe(Observable::Scene);
+    EXPECT_EQ(played.script("select_material bright; param Kd 0.9; param Kd 0.1;"
+                            "param Kd 0.2 further; param Kd 0.3 further; param Ka 0.5 further;"
+                            "wait refined; undo; wait refined"),
+              "");
+    const auto value = [&](const std::string& name) {
+        for (const MaterialInfo& material : played.player.scene()->materials)
+            for (const ShaderParamInfo& param : material.params)
+                if (material.id == "bright" && param.name == name) return param.numbers.front();
+        return -1.0;
+    };
+    EXPECT_EQ(value("Kd"), 0.3);
+    EXPECT_EQ(played.script("undo; wait refined"), "");
+    EXPECT_EQ(value("Kd"), 0.9);
+    EXPECT_NE(played.script("param Kd 0.1 farther"), "");
 }
 
 TEST(Edits, ABadValueKeepsTheLastGoodScene) {

@@ -1,9 +1,11 @@
 // tests/runtime/play/insight_test.cpp: lights one by one, and what each pixel cost.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
 
+#include "runtime/compare/errors.h"
 #include "runtime/play/display.h"
 #include "runtime/play/thumbnails.h"
 #include "tests/runtime/play/played.h"
@@ -190,9 +192,76 @@ TEST(Quality, IsThatOfTheOption) {
     EXPECT_EQ(draft.script("orbit 0 0; camera; quality preview"), "");
     EXPECT_EQ(picture_of(draft.player)->film.rgba, fine);
     EXPECT_EQ(draft.player.state().picture.quality, "preview");
-    EXPECT_EQ(draft.player.state().picture.prices.back().first, "preview");
-    EXPECT_GT(draft.player.state().picture.prices.back().second, 0);
     EXPECT_NE(draft.script("quality superb"), "");
+}
+
+// Each stop's picture against the best of the same view, as kinora-render's own comparison says.
+TEST(Quality, StopsHaveTheirErrors) {
+    SceneRequest request = small_request(scene_path("scenes/matte.dae"));
+    request.quality = *find_quality("draft");
+    Played played(request);
+    Player& player = played.player;
+    EXPECT_EQ(played.script("show_quality; quality quick"), "");
+    std::map<std::string, raytrace::Film> films;
+    films["quick"] = picture_of(player)->film;
+    EXPECT_FALSE(player.state().picture.refine);
+    for (const char* name : {"draft", "preview"}) {
+        ASSERT_TRUE(player.run("quality", {name}).done);
+        films[name] = picture_of(player)->film;
+        EXPECT_TRUE(player.state().picture.refine);
+    }
+    const std::vector<TradeStop> stops = player.state().picture.stops;
+    ASSERT_EQ(stops.size(), 3u);
+    auto view = [](const raytrace::Film& film) {
+        return PictureView{film.width, film.height, film.rgba};
+    };
+    for (size_t k = 0; k < 2; ++k) {
+        EXPECT_EQ(stops[k].against, "preview");
+        EXPECT_GT(stops[k].ms, 0);
+        const auto errors = picture_errors(view(films[stops[k].name]), view(films["preview"]));
+        EXPECT_NEAR(stops[k].rmse, errors.rmse, 1e-12) << stops[k].name;
+        EXPECT_NEAR(stops[k].flip, errors.flip, 1e-12) << stops[k].name;
+        EXPECT_GT(stops[k].flip, 0) << stops[k].name;
+    }
+    EXPECT_EQ(stops[2].name, "preview");
+    EXPECT_EQ(stops[2].against, "");
+    EXPECT_EQ(played.script("orbit 3 0"), "");  // another view: nothing of the one before is told
+    picture_of(player);
+    ASSERT_EQ(player.state().picture.stops.size(), 1u);
+    EXPECT_EQ(player.state().picture.stops[0].name, "preview");
+    EXPECT_EQ(played.script("show_quality"), "");
+    picture_of(player);
+    EXPECT_TRUE(player.state().picture.stops.empty());
+}
+
+// What the colors of numbers stand for, and the number under a pointer.
+TEST(Numbers, AreThoseOfThePlane) {
+    Played played("scenes/matte.dae");
+    Player& player = played.player;
+    EXPECT_FALSE(picture_of(player)->numbers);
+    EXPECT_EQ(played.script("aov depth"), "");
+    const auto depth = picture_of(player);
+    ASSERT_TRUE(depth->numbers);
+    float low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < depth->guide.depth.size(); ++k) {
+        const float d = depth->guide.depth[k];
+        if (std::isfinite(d)) low = std::min(low, d), high = std::max(high, d);
+        const double x = (double(k % 64) + 0.5) / 64, y = (double(k / 64) + 0.5) / 36;
+        const std::vector<float> shown = shown_numbers(*depth, "depth", x, y);
+        if (depth->guide.surface[k] == kNone)
+            EXPECT_TRUE(shown.empty()) << k;
+        else
+            EXPECT_EQ(shown, std::vector<float>{d}) << k;
+    }
+    EXPECT_EQ(depth->numbers->low, double(low));
+    EXPECT_EQ(depth->numbers->high, double(high));
+    EXPECT_FALSE(depth->numbers->in_color);
+    EXPECT_EQ(played.script("false_color"), "");
+    EXPECT_TRUE(picture_of(player)->numbers->in_color);
+    EXPECT_EQ(played.script("aov Ng"), "");
+    EXPECT_EQ(shown_numbers(*picture_of(player), "Ng", 0.5, 0.5).size(), 3u);
+    EXPECT_EQ(played.script("aov \"\""), "");
+    EXPECT_EQ(picture_of(player)->numbers->high, 1);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // tests/runtime/play/reload_test.cpp: files that change while they are shown.
+#include <filesystem>
 #include <fstream>
 
+#include "runtime/images/image_io.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -45,6 +47,43 @@ TEST(Reload, KeepsCameraAndTimeAndOutlivesABrokenSave) {
     EXPECT_EQ(player.observe(Observable::Camera), camera);
     EXPECT_EQ(player.observe(Observable::Time), "frame 7");
     EXPECT_TRUE(player.wait_idle(kLong));
+}
+
+// A picture file that a texture reads.
+TEST(Reload, FollowsTextures) {
+    const std::string folder = testing::TempDir() + "kinora_reload_texture/";
+    std::filesystem::create_directories(folder);
+    const auto paint = [&](uint8_t red, uint8_t green) {
+        Image8 image{2, 2, {}};
+        for (int k = 0; k < 4; ++k) image.rgba.insert(image.rgba.end(), {red, green, 0, 255});
+        ASSERT_EQ(write_png(folder + "paint.png", image, {}), "");
+    };
+    paint(255, 0);
+    write(folder + "painted.sl",
+          "surface painted() { Ci = color texture(\"paint.png\", 0.5, 0.5); Oi = 1; }");
+    write(folder + "matte.dae", text_of(scene_path("scenes/matte.dae")));
+    SceneRequest request = small_request(folder + "matte.dae");
+    request.shaders.emplace_back("*", folder + "painted.sl");
+    Played played(request, {true, true, nullptr});
+    Player& player = played.player;
+    ASSERT_TRUE(player.wait_idle(kLong));
+    const auto reds = [&] {
+        const auto picture = player.picture();
+        size_t red = 0, green = 0;
+        for (size_t k = 0; k < picture->rgba.size(); k += 4) {
+            red += picture->rgba[k] > 200 && picture->rgba[k + 1] < 50;
+            green += picture->rgba[k] < 50 && picture->rgba[k + 1] > 200;
+        }
+        return std::pair(red, green);
+    };
+    EXPECT_GT(reds().first, 100u);
+    EXPECT_EQ(reds().second, 0u);
+    paint(0, 255);
+    ASSERT_TRUE(wait_for_news(player, player.observe(Observable::Scene), player.findings().size()));
+    ASSERT_TRUE(player.wait_idle(kLong));
+    EXPECT_EQ(reds().first, 0u);
+    EXPECT_GT(reds().second, 100u);
+    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -215,5 +215,116 @@ TEST(Shader, AHundredRandomEditsLeaveItWell) {
     EXPECT_TRUE(player.picture()->refined);
 }
 
+// The editor's own ranges, a scene's file at the shader's line, and a file that is no shader's.
+TEST_F(WalkerCopy, FindingsLeadToTheirPlaces) {
+    Played played(small_request(file));
+    Player& player = played.player;
+    EXPECT_EQ(played.script("select_material wall-material; edit; find \"value * (Ka\";"
+                            "type \"valeu + \"; caret 1 1; wait refined; finding 1"),
+              "");
+    const ShaderDocument& shader = player.shader();
+    EXPECT_EQ(shader.text.substr(shader.caret, 5), "valeu");
+    EXPECT_EQ(player.state().raised.name, "editor");
+    EXPECT_NE(played.script("finding 99"), "");
+    EXPECT_EQ(played.script("undo; wait refined"), "");
+}
+
+TEST(Findings, OfTheScenesFileLeadToTheShaderOrTheLine) {
+    const std::string file = testing::TempDir() + "kinora_play_findings.dae";
+    std::string text = text_of(scene_path("scenes/walker.dae"));
+    // Something to warn of in a shader, and in the document.
+    text = replaced(text, kFrom, "(0 * log(0 - 1) + value) * (Ka * ambient()");
+    text = replaced(text, "<library_cameras>", "<library_nonsense/>\n<library_cameras>");
+    write(file, text);
+    Played played(small_request(file));
+    Player& player = played.player;
+    ASSERT_TRUE(player.wait_idle(kLong));
+    bool led_to_line = false;
+    for (size_t k = 0; k < player.findings().size(); ++k) {
+        const FindingText finding = player.findings()[k];
+        if (finding.file != file) continue;
+        ASSERT_TRUE(player.run("finding", {std::to_string(k + 1)}).done);
+        if (finding.message.find("library_nonsense") == std::string::npos) continue;
+        led_to_line = true;
+        EXPECT_EQ(player.state().raised.name, "source");
+        EXPECT_EQ(player.state().place.file, file);
+        EXPECT_EQ(player.state().place.line, finding.line);
+    }
+    EXPECT_TRUE(led_to_line);
+    EXPECT_EQ(played.script("key F8"), "");  // the next one, round and round
+}
+
+// All that wear shaders of one text change with it: a surface and a displacement beside it.
+TEST(Texts, OfSeveralShadersAreOne) {
+    const std::string file = testing::TempDir() + "kinora_play_two.dae";
+    std::string text = text_of(scene_path("scenes/matte.dae"));
+    text = replaced(text, "]]></code>",
+                    "displacement bumps(float height = 0) { P += height * normalize(N); }\n"
+                    "]]></code>");
+    text = replaced(text, "<shader stage=\"SURFACE\">",
+                    "<shader stage=\"DISPLACEMENT\"><name>bumps</name></shader>\n"
+                    "<shader stage=\"SURFACE\">");
+    write(file, text);
+    Played played(small_request(file));
+    Player& player = played.player;
+    const std::vector<uint8_t> before = pixels(player);
+    ASSERT_TRUE(player.scene());
+    EXPECT_EQ(played.script("select_material bright:displacement; edit"), "");
+    EXPECT_EQ(player.shader().material, "bright:displacement");
+    ASSERT_EQ(player.shader().params.size(), 1u);
+    EXPECT_EQ(player.shader().params[0].name, "height");
+    EXPECT_EQ(played.script("param height 0.4"), "");
+    EXPECT_NE(pixels(player), before);
+    EXPECT_EQ(played.script("undo; find \"0) { P\"; erase 1; type 0.4"), "");
+    const std::string higher = replaced(text, "height = 0)", "height = 0.4)");
+    write(testing::TempDir() + "kinora_play_higher.dae", higher);
+    Played other(small_request(testing::TempDir() + "kinora_play_higher.dae"));
+    EXPECT_EQ(pixels(player), pixels(other.player)) << player.shader().text;
+    EXPECT_EQ(played.script("select_material bright; edit"), "");
+    EXPECT_NE(player.shader().text.find("height = 0.4"), std::string::npos);
+    EXPECT_EQ(played.script("find \"Kd * diffuse\"; type \"0.5 * \"; wait refined; save"), "");
+    const std::vector<uint8_t> both = pixels(player);
+    EXPECT_EQ(text_of(file), replaced(higher, "Kd * diffuse", "0.5 * Kd * diffuse"));
+    Played again(small_request(file));
+    EXPECT_EQ(pixels(again.player), both);
+    EXPECT_NE(both, pixels(other.player));
+}
+
+// A light's shader and its parameters, while it shines.
+TEST(Texts, OfLightsAreEdited) {
+    Played played("scenes/court.dae");
+    Player& player = played.player;
+    const std::vector<uint8_t> before = pixels(player);
+    std::string light;
+    for (const MaterialInfo& material : player.scene()->materials)
+        if (material.further && material.id.starts_with("light:")) light = material.id;
+    ASSERT_NE(light, "");
+    EXPECT_EQ(played.script("select_material \"" + light + "\"; edit"), "");
+    ASSERT_TRUE(player
+                    .run("set_text", {"light green() { illuminate(point (0, 50, 0))"
+                                      " Cl = color(0, 4, 0); }"})
+                    .done);
+    EXPECT_NE(pixels(player), before);
+    EXPECT_TRUE(player.shader().findings.empty());
+    EXPECT_EQ(played.script("undo"), "");
+    EXPECT_EQ(pixels(player), before);
+    ASSERT_TRUE(player.run("set_text", {"surface green() { Ci = 1; Oi = 1; }"}).done);
+    EXPECT_EQ(pixels(player), before);  // of another kind
+    EXPECT_FALSE(player.findings().empty());
+}
+
+// Another shader of ours goes on the chosen material alone.
+TEST(Texts, BoundOnesAreTheirWearersAlone) {
+    Played played("scenes/walker.dae");
+    Player& player = played.player;
+    EXPECT_EQ(played.script("select_material wall-material; bind metal; wait refined"), "");
+    for (const MaterialInfo& material : player.scene()->materials) {
+        if (material.id == "wall-material") EXPECT_EQ(material.shader, "metal");
+        if (material.id == "trim-material") EXPECT_EQ(material.shader, "plaster");
+    }
+    EXPECT_EQ(played.script("select_material trim-material; edit"), "");
+    EXPECT_NE(player.shader().text.find("surface plaster"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kinora

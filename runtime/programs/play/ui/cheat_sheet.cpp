@@ -32,6 +32,8 @@ constexpr const char* kMouse[][2] = {
     {"Left", "Orbits; a click picks the pixel."},
     {"Shift+Left, Middle", "Pans; a middle click sets the pivot."},
     {"Wheel, Right", "Moves nearer and away."},
+    {"Ctrl+Left", "Looks around."},
+    {"Right, W A S D Q E", "Flies; the mouse looks around."},
 };
 
 // A key as a small plate.

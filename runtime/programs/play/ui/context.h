@@ -44,6 +44,7 @@ class Context {
     Layout& layout;
     Toast toast;
     std::string to_front;  // a panel that was asked for
+    std::string dragged;   // the parameter whose control the mouse holds, once it has changed
     std::string palette;   // what the palette is to begin with; "" as it is
 
   private:

@@ -15,17 +15,19 @@ namespace {
 constexpr size_t kMostRows = 200;  // of a section: they are laid out anew each time
 
 void explained_row(const Theme& theme, const Explained& row) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, row.modelled ? theme.text : theme.dim);
     ImGui::TextWrapped("%s", row.subject.c_str());
-    ImGui::TableNextColumn();
+    ImGui::PopStyleColor();
+    ImGui::Indent(theme.px(12));
+    ImGui::PushStyleColor(ImGuiCol_Text, row.modelled ? theme.good : theme.warning);
     ImGui::TextWrapped("%s%s", row.modelled ? "" : "left out: ", row.what.c_str());
     ImGui::PopStyleColor();
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, theme.dim);
-    ImGui::TextWrapped("%s", row.why.c_str());
-    ImGui::PopStyleColor();
+    if (!row.why.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, theme.dim);
+        ImGui::TextWrapped("%s", row.why.c_str());
+        ImGui::PopStyleColor();
+    }
+    ImGui::Unindent(theme.px(12));
 }
 
 void explained_section(const Theme& theme, std::span<const Explained> rows) {
@@ -34,12 +36,8 @@ void explained_section(const Theme& theme, std::span<const Explained> rows) {
     // The settings are many, and the same for most scenes.
     const ImGuiTreeNodeFlags open = name == "settings" ? 0 : ImGuiTreeNodeFlags_DefaultOpen;
     if (!ImGui::TreeNodeEx(title.c_str(), open)) return;
-    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp;
-    if (ImGui::BeginTable(name.c_str(), 3, kFlags)) {
-        for (const Explained& row : rows.first(std::min(rows.size(), kMostRows)))
-            explained_row(theme, row);
-        ImGui::EndTable();
-    }
+    for (const Explained& row : rows.first(std::min(rows.size(), kMostRows)))
+        explained_row(theme, row);
     if (rows.size() > kMostRows)
         ImGui::TextDisabled("and %zu more: the command explain writes all",
                             rows.size() - kMostRows);

@@ -15,22 +15,7 @@ std::string place_of(const FindingText& finding) {
     return finding.line ? fmt::format("{}:{}:{}", file, finding.line, finding.column) : file;
 }
 
-// To the line in the editor where the file is a shader's; else the place goes to the clipboard.
-void jump(Context& context, const FindingText& finding, bool of_shader) {
-    if (of_shader || context.player.run("edit", {finding.file}).done) {
-        context.show("editor");
-        if (finding.line)
-            context.run("caret", {fmt::format("{}", finding.line),
-                                  fmt::format("{}", std::max(1, finding.column))});
-        return;
-    }
-    const std::string location =
-        fmt::format("{}:{}:{}", finding.file, finding.line, finding.column);
-    ImGui::SetClipboardText(location.c_str());
-    context.say(fmt::format("Copied {}", location));
-}
-
-void row(Context& context, const FindingText& finding, bool of_shader) {
+void row(Context& context, const FindingText& finding, size_t number) {
     const Theme& theme = context.theme;
     const ImU32 color = finding.severity == "error"     ? theme.error
                         : finding.severity == "warning" ? theme.warning
@@ -38,8 +23,9 @@ void row(Context& context, const FindingText& finding, bool of_shader) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::Selectable("##finding", false, ImGuiSelectableFlags_SpanAllColumns))
-        jump(context, finding, of_shader);
+    if (ImGui::Selectable("##finding", context.state().finding == number,
+                          ImGuiSelectableFlags_SpanAllColumns))
+        context.run("finding", {fmt::format("{}", number)});
     if (ImGui::IsItemHovered()) {
         ImGui::BeginTooltip();
         ImGui::PushTextWrapPos(theme.px(520));
@@ -63,8 +49,7 @@ void row(Context& context, const FindingText& finding, bool of_shader) {
 
 void draw_findings(Context& context) {
     const auto& findings = context.player.findings();
-    const ShaderDocument& shader = context.player.shader();
-    if (findings.empty() && shader.findings.empty())
+    if (findings.empty())
         return empty_note(context.theme, "Nothing was found: neither an error nor a warning.");
     const float px = context.theme.px(1);
     if (!ImGui::BeginTable(
@@ -75,13 +60,11 @@ void draw_findings(Context& context) {
     ImGui::TableSetupColumn("message", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("place", 0, 190 * px);
     ImGui::TableSetupColumn("code", 0, 200 * px);
-    int id = 0;
-    for (const auto* some : {&shader.findings, &findings})
-        for (const FindingText& finding : *some) {
-            ImGui::PushID(id++);
-            row(context, finding, some == &shader.findings);
-            ImGui::PopID();
-        }
+    for (size_t k = 0; k < findings.size(); ++k) {
+        ImGui::PushID(static_cast<int>(k));
+        row(context, findings[k], k + 1);
+        ImGui::PopID();
+    }
     ImGui::EndTable();
 }
 

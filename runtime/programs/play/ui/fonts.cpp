@@ -4,7 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "runtime/programs/play/ui/letters.h"
 #include "runtime/programs/play/ui/theme.h"
 
 namespace kinora::play {
@@ -18,9 +21,6 @@ constexpr const char* kFolders[] = {
     "/usr/share/fonts/dejavu-sans-fonts",
 };
 
-// Latin, Greek, Cyrillic; punctuation, arrows, signs of mathematics.
-constexpr ImWchar kLetters[] = {0x20,   0x24f,  0x370,  0x3ff,  0x400,  0x4ff,  0x2010, 0x2060,
-                                0x2190, 0x21ff, 0x2200, 0x226f, 0x25a0, 0x25ff, 0};
 constexpr ImWchar kLatin[] = {0x20, 0x17f, 0x2010, 0x2030, 0x2190, 0x2193, 0};
 
 std::string font_file(const char* name) {
@@ -32,38 +32,58 @@ std::string font_file(const char* name) {
     return {};
 }
 
-ImFont* add(const char* name, float size, const ImWchar* letters) {
-    const std::string file = font_file(name);
+ImFont* add_file(const std::string& file, float size, const ImWchar* letters, bool merge) {
     if (file.empty()) return nullptr;
     ImFontConfig config;
     config.OversampleH = 1;
     config.PixelSnapH = true;
+    config.MergeMode = merge;
     return ImGui::GetIO().Fonts->AddFontFromFileTTF(file.c_str(), size, &config, letters);
+}
+
+// Files with letters that are merged into each font, and their ranges, which the atlas reads when
+// it is built.
+using Further = std::vector<std::pair<std::string, std::vector<ImWchar>>>;
+
+ImFont* add(const char* name, float size, const ImWchar* letters, const Further& further) {
+    const std::string own = font_file(name);
+    ImFont* font = add_file(own, size, letters, false);
+    if (!font) return nullptr;
+    for (const auto& [file, ranges] : further) {
+        add_file(own, size, ranges.data(), true);  // in its own form, if it has them
+        if (file != own) add_file(file, size, ranges.data(), true);
+    }
+    return font;
 }
 
 }  // namespace
 
-Fonts load_fonts(float scale) {
+Fonts load_fonts(float scale, const Letters& letters) {
     ImFontAtlas* atlas = ImGui::GetIO().Fonts;
     atlas->Clear();
     atlas->FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
     atlas->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
     atlas->TexGlyphPadding = 1;
     const auto size = [scale](float points) { return std::round(points * scale); };
+    Further further;
+    for (const auto& [file, some] : fonts_with(letters.all()))
+        further.emplace_back(file, ranges_of(some));
     Fonts fonts;
-    fonts.text = add("DejaVuSans.ttf", size(15), kLetters);
+    fonts.text = add("DejaVuSans.ttf", size(15), first_letters(), further);
     if (!fonts.text) {
         ImFontConfig config;
         config.SizePixels = size(14);
         fonts.text = atlas->AddFontDefault(&config);
+        for (const auto& [file, ranges] : further) add_file(file, size(14), ranges.data(), true);
         fonts.bold = fonts.mono = fonts.text;
-        return fonts;
+    } else {
+        fonts.found = true;
+        fonts.bold = add("DejaVuSans-Bold.ttf", size(15), kLatin, {});
+        fonts.mono = add("DejaVuSansMono.ttf", size(15), first_letters(), further);
+        if (!fonts.bold) fonts.bold = fonts.text;
+        if (!fonts.mono) fonts.mono = fonts.text;
     }
-    fonts.found = true;
-    fonts.bold = add("DejaVuSans-Bold.ttf", size(15), kLatin);
-    fonts.mono = add("DejaVuSansMono.ttf", size(15), kLetters);
-    if (!fonts.bold) fonts.bold = fonts.text;
-    if (!fonts.mono) fonts.mono = fonts.text;
+    atlas->Build();  // while the ranges are there
     return fonts;
 }
 

@@ -98,7 +98,6 @@ void draw_times(Context& context) {
         }
         ImGui::EndTable();
     }
-    draw_quality(context);
     ImGui::TextDisabled("%.1f ms, %.0f %% of the pixels, %d sample%s", total(last),
                         100 * last.scale * last.scale, last.samples, last.samples == 1 ? "" : "s");
     ImGui::EndGroup();

@@ -52,7 +52,7 @@ class EditorPanel {
 
 // The lights, one of which may shine alone.
 void draw_lights(Context& context);
-// The presets of quality, and what a picture of each took.
+// The slider of quality, and what a picture of each stop took and misses.
 void draw_quality(Context& context);
 
 // Our shaders on the selected object.
@@ -70,6 +70,22 @@ class LibraryPanel {
 void draw_explained(Context& context);
 
 void draw_findings(Context& context);
+
+// The file in which a finding stands that is in no text of a shader.
+class SourcePanel {
+  public:
+    void draw(Context& context);
+
+  private:
+    void read(const SourcePlace& place);
+    void row(const Theme& theme, size_t index) const;
+
+    std::string file_, text_;
+    std::vector<size_t> starts_;  // of lines
+    int line_ = 0, column_ = 0, raised_ = 0;
+    bool whole_ = false, scrolls_ = false;
+};
+
 // Everything known of the pixel that was clicked.
 void draw_pixel(Context& context);
 // Of that, its shaders' variables statement by statement.
@@ -99,12 +115,21 @@ class Viewport {
     const std::string& under_pointer() const { return under_pointer_; }
     // Seconds until it has to be drawn again; < 0: never by itself.
     double next_turn() const { return next_turn_; }
+    // What the keys of flight say: -1 to 1 along right, up and into the picture.
+    void steer(dvec3 steering) { steering_ = steering; }
+    bool may_fly() const { return button_ == 1; }
 
   private:
     void place(const Picture& picture, ImVec2 corner, ImVec2 size);
     void follow(Context& context, ImVec2 size);
     void take_mouse(Context& context, bool hovered);
     void take_wheel(Context& context);
+    bool take_wipe(Context& context, bool hovered);
+    bool take_flight(Context& context);
+    void turn(const char* word, Context& context, ImVec2 moved);
+    float wipe_x(const PictureState& state) const;
+    void draw_wipe(const Context& context) const;
+    void draw_scale(const Theme& theme, const NumberScale& scale) const;
     void show_under_pointer(const Context& context);
     void overlay(Context& context, ImVec2 corner, ImVec2 size);
 
@@ -116,7 +141,8 @@ class Viewport {
     double wanted_since_ = 0, next_turn_ = -1;
     ImVec2 wanted_{0, 0};
     int button_ = -1;  // held down
-    bool moved_ = false;
+    bool moved_ = false, wiping_ = false;
+    dvec3 steering_{0.0};
     std::string under_pointer_;
 };
 

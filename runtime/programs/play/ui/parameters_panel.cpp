@@ -108,7 +108,11 @@ void draw_value(Context& context, const ShaderParamInfo& param) {
         changed |= edit_numbers(context.theme, param.kind, numbers.data() + at);
         ImGui::PopID();
     }
-    if (changed) context.run("param", {param.name, numbers_text(numbers)});
+    if (!changed) return;
+    std::vector<std::string> words{param.name, numbers_text(numbers)};
+    if (context.dragged == param.name) words.emplace_back("further");
+    context.dragged = param.name;
+    context.run("param", words);
 }
 
 constexpr ImU32 kCurveColors[] = {IM_COL32(0xe0, 0x6c, 0x60, 255), IM_COL32(0x7f, 0xc0, 0x6a, 255),
@@ -188,7 +192,9 @@ void draw_materials(Context& context, const SceneInfo& scene) {
             context.has("select_material"))
             context.run("select_material", {material.id});
         ImGui::SameLine(theme.px(6));
+        ImGui::PushStyleColor(ImGuiCol_Text, material.further ? theme.dim : theme.text);
         ImGui::TextUnformatted((material.name.empty() ? material.id : material.name).c_str());
+        ImGui::PopStyleColor();
         const float right = ImGui::GetContentRegionAvail().x;
         const float width = ImGui::CalcTextSize(material.shader.c_str()).x;
         ImGui::SameLine(
@@ -205,6 +211,7 @@ void draw_materials(Context& context, const SceneInfo& scene) {
 void draw_parameters(Context& context) {
     const auto scene = context.player.scene();
     if (!scene) return empty_note(context.theme, "No scene is open.");
+    if (!ImGui::IsAnyItemActive()) context.dragged.clear();  // the button came up
     draw_materials(context, *scene);
     const ShaderDocument& shader = context.player.shader();
     if (shader.material.empty())

@@ -42,8 +42,6 @@ void changes(const Theme& theme, const StoryStep& step) {
     for (const StoryVariable& v : step.changes) {
         ImGui::Dummy({theme.px(44), 0});
         ImGui::SameLine(theme.px(52));
-        ImGui::TextDisabled("%s %s", v.varying ? "varying" : "uniform", v.type.c_str());
-        ImGui::SameLine(theme.px(170));
         ImGui::PushFont(theme.fonts.mono);
         const std::string text = fmt::format("{} = {}", v.name, value_text(v));
         if (v.nan)
@@ -51,6 +49,8 @@ void changes(const Theme& theme, const StoryStep& step) {
         else
             ImGui::TextUnformatted(text.c_str());
         ImGui::PopFont();
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s %s", v.varying ? "varying" : "uniform", v.type.c_str());
     }
 }
 
@@ -80,9 +80,8 @@ void ray_counts(const Theme& theme, const PixelStory& story) {
         blocked += ray.kind == StoryRay::Kind::Shadow && ray.hit;
     }
     ImGui::Dummy({0, theme.px(4)});
-    ImGui::TextDisabled(
-        "%zu rays of the eye, %zu traced, %zu to lights, of which %zu are blocked%s", eye, traced,
-        shadow, blocked, story.rays_cut ? "; and more" : "");
+    ImGui::TextDisabled("Rays: %zu of the eye, %zu traced, %zu to lights (%zu blocked)%s", eye,
+                        traced, shadow, blocked, story.rays_cut ? "; and more" : "");
 }
 
 void verdict(const Theme& theme, const PointStory& point) {

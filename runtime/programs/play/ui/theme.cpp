@@ -1,6 +1,8 @@
 // runtime/programs/play/ui/theme.cpp: a dark grey room with one warm light.
 #include "runtime/programs/play/ui/theme.h"
 
+#include "runtime/programs/play/ui/letters.h"
+
 namespace kinora::play {
 
 namespace {
@@ -123,7 +125,7 @@ Theme make_theme(float scale) {
 
     Theme theme;
     theme.scale = scale;
-    theme.fonts = load_fonts(scale);
+    theme.fonts = load_fonts(scale, {});
     theme.text = rgb(kText);
     theme.dim = rgb(kDim);
     theme.faint = rgb(kFaint);

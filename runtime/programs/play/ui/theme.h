@@ -9,6 +9,8 @@
 
 namespace kinora::play {
 
+class Letters;  // letters.h
+
 struct Fonts {
     ImFont* text = nullptr;
     ImFont* bold = nullptr;
@@ -32,7 +34,8 @@ struct Theme {
 // Loads the fonts of the current ImGui context and sets its style.
 Theme make_theme(float scale);
 
-// DejaVu from Debian's folders; ImGui's own where it is missing.
-Fonts load_fonts(float scale);
+// DejaVu from Debian's folders, ImGui's own where it is missing; with these letters, in whatever
+// font of the system has them. All fonts before are gone.
+Fonts load_fonts(float scale, const Letters& letters);
 
 }  // namespace kinora::play

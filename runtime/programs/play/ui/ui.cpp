@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kinora::play {
 
@@ -15,13 +16,20 @@ struct PanelRow {
     const char* title;
     Area area;
     bool at_start;  // open the first time
+    bool scrolls;   // as a whole; others scroll what is in them
 };
 constexpr PanelRow kPanels[] = {
-    {"scene", "Scene", Area::Left, true},          {"parameters", "Parameters", Area::Left, true},
-    {"lights", "Lights", Area::Left, false},       {"editor", "Shader", Area::Right, true},
-    {"pixel", "Pixel", Area::Right, true},         {"library", "Library", Area::Right, false},
-    {"explained", "Explained", Area::Left, false}, {"findings", "Findings", Area::Bottom, false},
-    {"times", "Frame times", Area::Bottom, false},
+    {"scene", "Scene", Area::Left, true, false},
+    {"parameters", "Parameters", Area::Left, true, false},
+    {"lights", "Lights", Area::Left, false, true},
+    {"quality", "Quality", Area::Left, false, true},
+    {"editor", "Shader", Area::Right, true, false},
+    {"pixel", "Pixel", Area::Right, true, true},
+    {"library", "Library", Area::Right, false, false},
+    {"explained", "Explained", Area::Right, false, true},
+    {"source", "Source", Area::Right, false, false},
+    {"findings", "Findings", Area::Bottom, false, false},
+    {"times", "Frame times", Area::Bottom, false, true},
 };
 // Open panels without a place in an area.
 constexpr const char* kOverlays[] = {"hud", "code", "keys", "commands"};
@@ -45,15 +53,48 @@ Ui::Ui(Player& player, const Layout& layout, float scale, bool follow_size)
       context_(player, theme_, layout_),
       editor_(theme_.editor),
       viewport_(follow_size) {
+    ImGui::GetIO().IniFilename = nullptr;
+    take_fonts();
+    restore_panels();
+}
+
+void Ui::take_fonts() {
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;
     unsigned char* texels;
     io.Fonts->GetTexDataAsAlpha8(&texels, &font_.width, &font_.height);
     font_.texels = texels;
     font_.format = TexelFormat::Alpha8;
     io.Fonts->SetTexID(texture_id(&font_));
     io.FontDefault = theme_.fonts.text;
-    restore_panels();
+}
+
+// Between two frames: fonts with the letters that names and texts have by now.
+void Ui::follow_letters() {
+    const auto scene = context_.player.scene();
+    const ShaderDocument& shader = context_.player.shader();
+    bool some = false;
+    if (scene && scene->serial != lettered_scene_) {
+        lettered_scene_ = scene->serial;
+        some |= letters_.add(scene->path);
+        for (const auto* names : {&scene->cameras, &scene->lights})
+            for (const std::string& name : *names) some |= letters_.add(name);
+        for (const ClipInfo& clip : scene->clips) some |= letters_.add(clip.name);
+        for (const NodeInfo& node : scene->nodes) some |= letters_.add(node.name);
+        for (const MaterialInfo& material : scene->materials) some |= letters_.add(material.name);
+    }
+    if (shader.version != lettered_text_ || shader.material != lettered_material_) {
+        lettered_text_ = shader.version;
+        lettered_material_ = shader.material;
+        some |= letters_.add(shader.text);
+    }
+    const auto& findings = context_.player.findings();
+    if (findings.size() != lettered_findings_) {
+        lettered_findings_ = findings.size();
+        for (const FindingText& finding : findings) some |= letters_.add(finding.message);
+    }
+    if (!some) return;
+    theme_.fonts = load_fonts(theme_.scale, letters_);
+    take_fonts();
 }
 
 void Ui::restore_panels() {
@@ -86,12 +127,16 @@ bool Ui::shows(Area area) const {
 
 // In a narrow window one side is shown: the one of the panel opened last, none at first.
 void Ui::follow_opened() {
+    const RaisedPanel& raised = context_.state().raised;
+    const bool raises = std::exchange(raised_, raised.times) != raised.times && followed_;
+    if (raises) context_.to_front = raised.name;
     std::vector<std::string> open;
     for (const PanelRow& row : kPanels)
         if (context_.open(row.name)) open.push_back(row.name);
     for (const PanelRow& row : kPanels) {
         const bool before = std::find(opened_.begin(), opened_.end(), row.name) != opened_.end();
-        if (!followed_ || before || !context_.open(row.name)) continue;
+        const bool comes = !before || (raises && raised.name == row.name);
+        if (!followed_ || !comes || !context_.open(row.name)) continue;
         if (context_.to_front.empty()) context_.to_front = row.name;
         if (row.area != Area::Bottom) narrow_side_ = row.area;
     }
@@ -105,10 +150,12 @@ void Ui::draw_panel(const char* name) {
     if (panel == "scene") nodes_.draw(context_);
     if (panel == "parameters") draw_parameters(context_);
     if (panel == "lights") draw_lights(context_);
+    if (panel == "quality") draw_quality(context_);
     if (panel == "explained") draw_explained(context_);
     if (panel == "library") library_.draw(context_);
     if (panel == "editor") editor_.draw(context_);
     if (panel == "pixel") draw_pixel(context_);
+    if (panel == "source") source_.draw(context_);
     if (panel == "findings") draw_findings(context_);
     if (panel == "times") draw_times(context_);
 }
@@ -121,7 +168,7 @@ void Ui::draw_area(Area area, const Box& box) {
                       ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoScrollbar);
     ImGui::PopStyleVar();
     std::string& front = layout_.front[static_cast<size_t>(area)];
-    if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll)) {
+    if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyResizeDown)) {
         for (const PanelRow& row : kPanels) {
             if (row.area != area || !context_.open(row.name)) continue;
             bool stays = true;
@@ -129,8 +176,7 @@ void Ui::draw_area(Area area, const Box& box) {
                                (!front.empty() && front == row.name && ImGui::GetFrameCount() < 3);
             std::string title = row.title;
             if (std::string_view(row.name) == "findings") {
-                const size_t count =
-                    context_.player.findings().size() + context_.player.shader().findings.size();
+                const size_t count = context_.player.findings().size();
                 if (count) title += fmt::format(" ({})", count);
             }
             title += fmt::format("###{}", row.name);
@@ -139,7 +185,9 @@ void Ui::draw_area(Area area, const Box& box) {
                 if (ImGui::GetFrameCount() >= 3) front = row.name;
                 ImGui::BeginChild(
                     row.name, {0, 0}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+                    row.scrolls
+                        ? ImGuiWindowFlags_HorizontalScrollbar
+                        : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
                 draw_panel(row.name);
                 ImGui::EndChild();
                 ImGui::EndTabItem();
@@ -289,6 +337,7 @@ void Ui::draw() {
 
 void Ui::render(const Target& target, float seconds) {
     ImGui::GetIO().DeltaTime = std::max(seconds, 1e-4f);
+    follow_letters();
     ImGui::NewFrame();
     draw();
     ImGui::Render();
@@ -310,6 +359,7 @@ bool Ui::press(const std::string& key) {
                                        "Ctrl+Right", "Ctrl+Home",    "Ctrl+End"};
     if (wants_text() && std::find(std::begin(kOfText), std::end(kOfText), key) != std::end(kOfText))
         return false;
+    if (viewport_.may_fly() && !combined) return false;  // W A S D Q E
     const Command* command = find_command_of_key(key);
     if (!command) return false;
     if (*command->arguments && command->arguments[0] != '[') {

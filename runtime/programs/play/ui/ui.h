@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/programs/play/ui/context.h"
+#include "runtime/programs/play/ui/letters.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {
@@ -24,6 +25,8 @@ class Ui {
     // A key of the table by its name: "Ctrl+S". False: no row has it, or the keyboard belongs to a
     // text.
     bool press(const std::string& key);
+    // The keys of flight, see Viewport.
+    void steer(dvec3 steering) { viewport_.steer(steering); }
     // Whether letters are text at present.
     bool wants_text() const;
     // Seconds until it changes by itself; < 0: never.
@@ -37,6 +40,8 @@ class Ui {
         ImVec2 low, high;
         ImVec2 size() const { return {high.x - low.x, high.y - low.y}; }
     };
+    void take_fonts();
+    void follow_letters();
     void restore_panels();
     void remember_panels();
     bool shows(Area area) const;
@@ -50,16 +55,22 @@ class Ui {
     Layout layout_;
     Theme theme_;
     Texture font_;
+    Letters letters_;
+    uint64_t lettered_scene_ = 0, lettered_text_ = 0;  // looked through for letters
+    std::string lettered_material_;
+    size_t lettered_findings_ = 0;
     Context context_;
     NodesPanel nodes_;
     LibraryPanel library_;
     EditorPanel editor_;
+    SourcePanel source_;
     Timeline timeline_;
     Viewport viewport_;
     Palette palette_;
     bool failed_ = false;
     std::vector<std::string> opened_;  // panels, as of the last turn
     bool followed_ = false;
+    int raised_ = 0;  // as the state has it
     std::optional<Area> narrow_side_;
 };
 

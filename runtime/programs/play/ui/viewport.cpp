@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "runtime/play/display.h"
 #include "runtime/programs/play/ui/panels.h"
@@ -13,6 +16,8 @@ namespace {
 
 constexpr double kSizeDelay = 0.2;  // seconds that a size must last before pictures have it
 constexpr float kDegreesPerPixel = 0.4f;
+constexpr double kFlyPerSecond = 0.7;  // of the distance to what the camera looks at
+constexpr double kLongestTurn = 0.1;   // seconds; a window at rest has longer ones
 constexpr float kDollyPerPixel = 1.005f, kDollyPerNotch = 1.12f;
 
 std::string number(double value) {
@@ -67,10 +72,12 @@ void Viewport::take_wheel(Context& context) {
         context.run("dolly", {number(std::pow(kDollyPerNotch, io.MouseWheel))});
 }
 
-// Left: orbit; with Shift, or the middle button: pan; right: dolly. Without a move: a click.
+// Left: orbit; with Shift, or the middle button: pan; with Ctrl: look; right: dolly, or flight.
+// Without a move: a click.
 void Viewport::take_mouse(Context& context, bool hovered) {
     const ImGuiIO& io = ImGui::GetIO();
     if (hovered) take_wheel(context);
+    if (take_wipe(context, hovered)) return;
     for (int button = 0; button < 3; ++button)
         if (button_ < 0 && hovered && ImGui::IsMouseClicked(button)) {
             button_ = button;
@@ -93,6 +100,7 @@ void Viewport::take_mouse(Context& context, bool hovered) {
         if (inside && button == 2 && Context::has("pivot")) context.run("pivot", at);
         return;
     }
+    if (take_flight(context)) return;
     if (!moved_ && !ImGui::IsMouseDragging(button_, 3)) return;
     ImVec2 moved = io.MouseDelta;
     if (!moved_) moved = ImGui::GetMouseDragDelta(button_, 0);
@@ -102,8 +110,7 @@ void Viewport::take_mouse(Context& context, bool hovered) {
     if (button_ == 2 || (button_ == 0 && io.KeyShift))
         context.run("pan", {number(-moved.x / height), number(moved.y / height)});
     else if (button_ == 0)
-        context.run("orbit",
-                    {number(-moved.x * kDegreesPerPixel), number(moved.y * kDegreesPerPixel)});
+        turn(io.KeyCtrl ? "look" : "orbit", context, moved);
     else
         context.run("dolly", {number(std::pow(kDollyPerPixel, moved.y))});
 }
@@ -125,13 +132,97 @@ void Viewport::show_under_pointer(const Context& context) {
     const std::string& aov = context.state().picture.aov;
     if (aov.empty()) return;
     under_pointer_ += "   " + aov;
-    const PixelCosts& costs = picture_->costs;
-    if (shows_costs(aov) && !costs.empty())
-        under_pointer_ += fmt::format(
-            " {:.4g}",
-            cost_numbers(
-                costs,
-                aov)[static_cast<size_t>(at(y, costs.height) * costs.width + at(x, costs.width))]);
+    for (float value : shown_numbers(*picture_, aov, static_cast<double>(x), static_cast<double>(y)))
+        under_pointer_ += fmt::format(" {:.5g}", value);
+}
+
+// What the colors stand for, in the picture's lower right corner.
+void Viewport::draw_scale(const Theme& theme, const NumberScale& scale) const {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float width = theme.px(180), height = theme.px(10), line = ImGui::GetTextLineHeight();
+    const ImVec2 corner{high_.x - width - theme.px(16), high_.y - height - line - theme.px(18)};
+    if (corner.x < low_.x || corner.y < low_.y) return;
+    list->AddRectFilled({corner.x - theme.px(6), corner.y - theme.px(6)},
+                        {corner.x + width + theme.px(6), corner.y + height + line + theme.px(8)},
+                        IM_COL32(0, 0, 0, 150), theme.px(4));
+    constexpr int kSteps = 60;
+    for (int k = 0; k < kSteps; ++k) {
+        const float share = (static_cast<float>(k) + 0.5f) / kSteps;
+        const vec3 c = scale.in_color ? false_color(share) : vec3(share);
+        const auto shown = [](float v) { return std::pow(v, 1 / 2.2f); };
+        const float x = corner.x + width * static_cast<float>(k) / kSteps;
+        list->AddRectFilled({x, corner.y}, {x + width / kSteps + 0.5f, corner.y + height},
+                            ImGui::ColorConvertFloat4ToU32({shown(c.x), shown(c.y), shown(c.z), 1}));
+    }
+    const std::string high = fmt::format("{:.4g}", scale.high);
+    const float y = corner.y + height + theme.px(2);
+    list->AddText({corner.x, y}, theme.text, fmt::format("{:.4g}", scale.low).c_str());
+    list->AddText({corner.x + width - ImGui::CalcTextSize(high.c_str()).x, y}, theme.text,
+                  high.c_str());
+}
+
+// The line between the kept picture and the new one.
+float Viewport::wipe_x(const PictureState& state) const {
+    return std::round(low_.x + (high_.x - low_.x) * static_cast<float>(state.wipe_at));
+}
+
+void Viewport::draw_wipe(const Context& context) const {
+    const PictureState& state = context.state().picture;
+    const Theme& theme = context.theme;
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float x = wipe_x(state), middle = (low_.y + high_.y) / 2, r = theme.px(5);
+    list->AddRectFilled({x, low_.y}, {x + 1, high_.y}, IM_COL32(255, 255, 255, 200));
+    list->AddTriangleFilled({x - r * 2, middle}, {x - r * 0.7f, middle - r},
+                            {x - r * 0.7f, middle + r}, IM_COL32(255, 255, 255, 220));
+    list->AddTriangleFilled({x + r * 2 + 1, middle}, {x + r * 0.7f + 1, middle - r},
+                            {x + r * 0.7f + 1, middle + r}, IM_COL32(255, 255, 255, 220));
+    const std::string left = "kept: " + state.wipe;
+    const float y = high_.y - ImGui::GetTextLineHeight() - theme.px(8);
+    list->PushClipRect(low_, {x, high_.y}, true);
+    shadowed_text(list, {x - ImGui::CalcTextSize(left.c_str()).x - theme.px(8), y}, theme.text,
+                  left);
+    list->PopClipRect();
+    list->PushClipRect({x, low_.y}, high_, true);
+    shadowed_text(list, {x + theme.px(8), y}, theme.text, "now");
+    list->PopClipRect();
+}
+
+// Whether the mouse has the line.
+bool Viewport::take_wipe(Context& context, bool hovered) {
+    const PictureState& state = context.state().picture;
+    if (state.wipe.empty() || !picture_) return wiping_ = false;
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool is_near = hovered && button_ < 0 &&
+                         std::abs(io.MousePos.x - wipe_x(state)) <= context.theme.px(5);
+    if (is_near && ImGui::IsMouseClicked(0)) wiping_ = true;
+    if (is_near || wiping_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (!wiping_) return false;
+    if (!ImGui::IsMouseDown(0)) {
+        wiping_ = false;
+        return true;
+    }
+    const float share = std::clamp((io.MousePos.x - low_.x) / (high_.x - low_.x), 0.0f, 1.0f);
+    if (std::abs(static_cast<double>(share) - state.wipe_at) > 1e-4)
+        context.run("wipe", {number(static_cast<double>(share))});
+    return true;
+}
+
+// With the right button held, W A S D Q E move the camera, and the mouse turns it.
+bool Viewport::take_flight(Context& context) {
+    if (button_ != 1 || steering_ == dvec3(0.0)) return false;
+    const ImGuiIO& io = ImGui::GetIO();
+    const double seconds = std::min(static_cast<double>(io.DeltaTime), kLongestTurn);
+    const dvec3 step = steering_ * (io.KeyShift ? 4.0 : 1.0) * kFlyPerSecond * seconds;
+    context.run("fly", {number(step.x), number(step.y), number(step.z)});
+    const ImVec2 moved = moved_ ? io.MouseDelta : ImVec2{0, 0};
+    moved_ = true;
+    if (moved.x != 0 || moved.y != 0) turn("look", context, moved);
+    next_turn_ = 1.0 / 60;
+    return true;
+}
+
+void Viewport::turn(const char* word, Context& context, ImVec2 moved) {
+    context.run(word, {number(-moved.x * kDegreesPerPixel), number(moved.y * kDegreesPerPixel)});
 }
 
 void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
@@ -164,30 +255,31 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
     const auto times = context.player.stage_times();
     if (times.empty()) return;
     const StageTimes& last = times.back();
-    ImVec2 at{corner.x + margin, corner.y + margin};
     const PictureState& state = context.state().picture;
-    shadowed_text(
-        list, at, theme.text,
-        fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total, picture_->width, picture_->height,
-                    picture_->samples, picture_->refined ? "   refined" : ""));
-    at.y += line;
-    if (picture_->scale < 1) {
-        shadowed_text(list, at, theme.accent,
-                      fmt::format("{:.0f} % of the width, to hold {:.0f} pictures a second",
-                                  100 * picture_->scale, state.hold_rate));
-        at.y += line;
-    }
-    if (!state.aov.empty()) {
-        shadowed_text(list, at, theme.accent,
-                      state.aov + (state.false_color ? ", false color" : ""));
-        at.y += line;
-    }
-    if (!state.light.empty()) {
-        shadowed_text(list, at, theme.accent, "light " + state.light + " alone");
-        at.y += line;
-    }
-    if (state.exposure != 0) {
-        shadowed_text(list, at, theme.dim, fmt::format("{:+.2g} stops", state.exposure));
+    std::vector<std::pair<ImU32, std::string>> lines;
+    lines.emplace_back(theme.text, fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total,
+                                               picture_->width, picture_->height,
+                                               picture_->samples,
+                                               picture_->refined ? "   refined" : ""));
+    if (picture_->scale < 1)
+        lines.emplace_back(theme.accent,
+                           fmt::format("{:.0f} % of the width, to hold {:.0f} pictures a second",
+                                       100 * picture_->scale, state.hold_rate));
+    if (!state.aov.empty())
+        lines.emplace_back(theme.accent, state.aov + (state.false_color ? ", false color" : ""));
+    if (!state.light.empty()) lines.emplace_back(theme.accent, "light " + state.light + " alone");
+    if (state.exposure != 0)
+        lines.emplace_back(theme.dim, fmt::format("{:+.2g} stops", state.exposure));
+    ImVec2 at{corner.x + margin, corner.y + margin};
+    float width = theme.px(240);
+    for (const auto& [color, text] : lines)
+        width = std::max(width, ImGui::CalcTextSize(text.c_str()).x);
+    const float high = line * static_cast<float>(lines.size());
+    list->AddRectFilled({at.x - theme.px(6), at.y - theme.px(4)},
+                        {at.x + width + theme.px(6), at.y + high + theme.px(2)},
+                        IM_COL32(0, 0, 0, 110), theme.px(4));
+    for (const auto& [color, text] : lines) {
+        list->AddText(at, color, text.c_str());
         at.y += line;
     }
     ImGui::SetCursorScreenPos({at.x, at.y + theme.px(4)});
@@ -208,12 +300,8 @@ void Viewport::draw(Context& context, ImVec2 corner, ImVec2 size) {
         texture_ = {picture_->rgba.data(), picture_->width, picture_->height, TexelFormat::Rgba8};
         place(*picture_, corner, size);
         list->AddImage(texture_id(&texture_), low_, high_);
-        const PictureState& state = context.state().picture;
-        if (!state.wipe.empty()) {
-            const float x =
-                std::round(low_.x + (high_.x - low_.x) * static_cast<float>(state.wipe_at));
-            list->AddRectFilled({x, low_.y}, {x + 1, high_.y}, IM_COL32(255, 255, 255, 200));
-        }
+        if (!context.state().picture.wipe.empty()) draw_wipe(context);
+        if (picture_->numbers) draw_scale(context.theme, *picture_->numbers);
     }
     take_mouse(context, hovered);
     under_pointer_.clear();

@@ -125,6 +125,15 @@ void take_event(const SDL_Event& event, float scale) {
     }
 }
 
+dvec3 steering() {
+    const uint8_t* down = SDL_GetKeyboardState(nullptr);
+    const auto axis = [&](SDL_Scancode more, SDL_Scancode less) {
+        return static_cast<double>(down[more]) - static_cast<double>(down[less]);
+    };
+    return {axis(SDL_SCANCODE_D, SDL_SCANCODE_A), axis(SDL_SCANCODE_E, SDL_SCANCODE_Q),
+            axis(SDL_SCANCODE_W, SDL_SCANCODE_S)};
+}
+
 void show_pointer() {
     static int shown = ImGuiMouseCursor_Arrow;
     const int wanted = ImGui::GetMouseCursor();

@@ -168,6 +168,7 @@ class WindowLoop {
         ImGuiIO& io = ImGui::GetIO();
         io.DisplaySize = {static_cast<float>(target.width), static_cast<float>(target.height)};
         if (std::exchange(swallow_text_, false)) io.ClearInputCharacters();
+        ui_->steer(steering());
         ui_->render(target, static_cast<float>(seconds));
         show_pointer();
         surface_.present();
