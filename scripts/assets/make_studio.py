@@ -59,6 +59,9 @@ light panel(float intensity = 9; color lightcolor = color(1, 0.95, 0.86);) {
 }
 surface glow(color lightcolor = color(1, 0.95, 0.86);) { Oi = 1; Ci = lightcolor; }
 """
+SKY = """
+surface sky() { Oi = 1; Ci = mix(color(0.75, 0.8, 0.85), color(0.2, 0.4, 0.7), t); }
+"""
 
 
 def floor():
@@ -112,16 +115,17 @@ def main():
     png(out_path.parent / "studio_tiles.png")
     tiles = tiled("tiles", "studio_tiles.png")
     effects = [tiles[:2], effect("glass", "glass"), code_of("mirror", [("SURFACE", "mirror")], MIRROR),
-               code_of("panel", [("LIGHT", "panel"), ("SURFACE", "glow")], PANEL)]
+               code_of("sky", [("SURFACE", "sky")], SKY), code_of("panel", [("LIGHT", "panel"), ("SURFACE", "glow")], PANEL)]
     meshes, controller = morph("drop", 3)
     meshes += floor() + geometry("left", quad([(-2.2, 0, 1), (-2.2, 0, -5), (-2.2, 3, -5), (-2.2, 3, 1)], (1, 0, 0)))
     meshes += geometry("right", quad([(2.2, 0, -5), (2.2, 0, 1), (2.2, 3, 1), (2.2, 3, -5)], (-1, 0, 0)))
     meshes += geometry("lamp", quad([(-0.8, 3.4, 0), (-0.8, 3.4, -2), (0.8, 3.4, -2), (0.8, 3.4, 0)], (0, -1, 0)))
     meshes += geometry("ball", icosphere(3))
+    meshes += geometry("sky", quad([(-60, -1, -49), (60, -1, -49), (60, 40, -49), (-60, 40, -49)], (0, 0, 1)))
     nodes = (place("floor", "tiles").replace("</instance_material>", "").replace(
         'target="#tiles"/>', 'target="#tiles"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" '
         'input_set="0"/></instance_material>') + place("left", "mirror") + place("right", "mirror") +
-        place("lamp", "panel") + place_morph("drop", "glass", "<translate>0.9 0.75 -0.6</translate>"
+        place("lamp", "panel") + place("sky", "sky") + place_morph("drop", "glass", "<translate>0.9 0.75 -0.6</translate>"
                                              "<scale>0.3 0.3 0.3</scale>") +
         place("ball", "glass", "<translate>-0.9 0.5 -0.2</translate><scale>0.5 0.5 0.5</scale>") +
         place("ball", "mirror", "<translate>0 0.6 -2.4</translate><scale>0.6 0.6 0.6</scale>"))
