@@ -12,6 +12,8 @@ namespace kinora {
 
 namespace {
 
+constexpr double kMostKeptPixels = 4e6;  // of a reference's exposures: 40 bytes each
+
 bool finite(const vec4& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(c.w);
 }
@@ -108,22 +110,34 @@ double percentile(std::vector<double> values, double share) {
     return *at;
 }
 
-PictureErrors picture_errors(const PictureView& picture, const PictureView& reference, Plane* map) {
-    CHECK_EQ(picture.width, reference.width);
-    CHECK_EQ(picture.height, reference.height);
-    PictureErrors e;
+ReferencePicture::ReferencePicture(const PictureView& reference)
+    : width_(reference.width), height_(reference.height) {
     size_t broken = 0;
-    std::vector<vec4> a = finite_pixels(picture, e.non_finite);
-    std::vector<vec4> b = finite_pixels(reference, broken);
-    PictureView va{picture.width, picture.height, a}, vb{picture.width, picture.height, b};
-    add_differences(va, vb, e);
-    e.ssim = ssim(encoded_luma(va), encoded_luma(vb));
-    Plane flip = ldr_flip(va, vb);
+    pixels_ = finite_pixels(reference, broken);
+    luma_ = encoded_luma(view());
+    flip_ = flip_view(view());
+    if (double(flip_exposures(view()).count) * double(pixels_.size()) <= kMostKeptPixels)
+        hdr_ = hdr_flip_views(view());
+}
+
+PictureErrors ReferencePicture::errors_of(const PictureView& picture, Plane* map) const {
+    CHECK_EQ(picture.width, width_);
+    CHECK_EQ(picture.height, height_);
+    PictureErrors e;
+    const std::vector<vec4> pixels = finite_pixels(picture, e.non_finite);
+    const PictureView finite{picture.width, picture.height, pixels};
+    add_differences(finite, view(), e);
+    e.ssim = ssim(encoded_luma(finite), luma_);
+    Plane flip = ldr_flip(flip_view(finite), flip_);
     e.flip = mean(flip);
     e.flip_p99 = percentile(flip.values, 0.99);
-    e.hdr_flip = mean(hdr_flip(va, vb));
+    e.hdr_flip = mean(hdr_.views.empty() ? hdr_flip(finite, view()) : hdr_flip(finite, hdr_));
     if (map) *map = std::move(flip);
     return e;
+}
+
+PictureErrors picture_errors(const PictureView& picture, const PictureView& reference, Plane* map) {
+    return ReferencePicture(reference).errors_of(picture, map);
 }
 
 }  // namespace kinora

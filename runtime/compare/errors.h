@@ -1,6 +1,7 @@
 // runtime/compare/errors.h: how far a picture is from another, in the numbers that people use.
 #pragma once
 
+#include "runtime/compare/flip.h"
 #include "runtime/compare/picture.h"
 
 namespace kinora {
@@ -22,6 +23,24 @@ struct PictureErrors {
 // Pictures of equal size. `map`, if given, gets ldr_flip's pixels.
 PictureErrors picture_errors(const PictureView& picture, const PictureView& reference,
                              Plane* map = nullptr);
+
+// A reference that many pictures are compared with: what their errors need of it is made once,
+// but for HDR-FLIP of pictures so large that it would fill the memory.
+class ReferencePicture {
+  public:
+    explicit ReferencePicture(const PictureView& reference);
+    // As picture_errors says.
+    PictureErrors errors_of(const PictureView& picture, Plane* map = nullptr) const;
+
+  private:
+    PictureView view() const { return {width_, height_, pixels_}; }
+
+    int width_, height_;
+    std::vector<vec4> pixels_;
+    Plane luma_;
+    FlipView flip_;
+    HdrFlipViews hdr_;  // none: too large
+};
 
 // IEC 61966-2-1 of a linear value; limited to 0..1.
 double encode_srgb(double linear);

@@ -108,10 +108,7 @@ Kernel1 balanced(Kernel1 kernel) {
 }
 
 // How strong edges and points are at each pixel: the lengths of two gradients.
-struct Features {
-    Plane edges, points;
-};
-Features features(const Plane& opponent_y, double ppd) {
+void find_features(const Plane& opponent_y, double ppd, FlipView& view) {
     const double sigma = 0.5 * kFeatureDegrees * ppd;
     const int radius = int(std::ceil(3 * sigma));
     Kernel1 smooth = gaussian_kernel(sigma, radius), edge = smooth, point = smooth;
@@ -131,7 +128,8 @@ Features features(const Plane& opponent_y, double ppd) {
         for (size_t i = 0; i < dx.size(); ++i) dx[i] = std::hypot(dx[i], dy[i]);
         return dx;
     };
-    return {gradient(edge), gradient(point)};
+    view.edges = gradient(edge);
+    view.points = gradient(point);
 }
 
 }  // namespace
@@ -157,21 +155,30 @@ double flip_largest_color_error() {
     return most;
 }
 
-Plane ldr_flip(const PictureView& a, const PictureView& b, double ppd) {
-    CHECK_EQ(a.width, b.width);
-    CHECK_EQ(a.height, b.height);
-    Planes planes_a = opponent_planes(a), planes_b = opponent_planes(b);
-    std::vector<dvec3> seen_a = seen(planes_a, ppd), seen_b = seen(planes_b, ppd);
-    Features features_a = features(planes_a[0], ppd), features_b = features(planes_b[0], ppd);
-    Plane flip(a.width, a.height);
+FlipView flip_view(const PictureView& picture, double ppd) {
+    FlipView view;
+    const Planes planes = opponent_planes(picture);
+    view.colors = seen(planes, ppd);
+    find_features(planes[0], ppd, view);
+    return view;
+}
+
+Plane ldr_flip(const FlipView& a, const FlipView& b) {
+    CHECK_EQ(a.edges.width, b.edges.width);
+    CHECK_EQ(a.edges.height, b.edges.height);
+    Plane flip(a.edges.width, a.edges.height);
     for (size_t i = 0; i < flip.size(); ++i) {
-        double color = redistributed(std::pow(hyab(seen_a[i], seen_b[i]), kColorPower));
-        double most = std::max(std::abs(features_a.edges[i] - features_b.edges[i]),
-                               std::abs(features_a.points[i] - features_b.points[i]));
+        double color = redistributed(std::pow(hyab(a.colors[i], b.colors[i]), kColorPower));
+        double most =
+            std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));
         double feature = std::pow(most / std::sqrt(2.0), kFeaturePower);
         flip[i] = std::clamp(std::pow(std::clamp(color, 0.0, 1.0), 1 - feature), 0.0, 1.0);
     }
     return flip;
+}
+
+Plane ldr_flip(const PictureView& a, const PictureView& b, double ppd) {
+    return ldr_flip(flip_view(a, ppd), flip_view(b, ppd));
 }
 
 }  // namespace kinora

@@ -24,6 +24,15 @@ double flip_largest_color_error();
 Plane ldr_flip(const PictureView& a, const PictureView& b,
                double pixels_per_degree = flip_pixels_per_degree());
 
+// What a viewer sees of one picture. Of a picture that many are compared with, it is made once.
+struct FlipView {
+    std::vector<dvec3> colors;  // as hunt_lab has them, blurred by the eye
+    Plane edges, points;        // how strong they are
+};
+FlipView flip_view(const PictureView& picture,
+                   double pixels_per_degree = flip_pixels_per_degree());
+Plane ldr_flip(const FlipView& a, const FlipView& b);
+
 // The exposures, in stops, at which hdr_flip looks at pictures of that reference.
 struct FlipExposures {
     double first = 0, last = 0;
@@ -34,6 +43,16 @@ FlipExposures flip_exposures(const PictureView& reference);
 
 // The largest ldr_flip over the exposures of the reference, tone mapped by ACES.
 Plane hdr_flip(const PictureView& picture, const PictureView& reference,
+               double pixels_per_degree = flip_pixels_per_degree());
+
+// A reference as hdr_flip sees it: a view an exposure.
+struct HdrFlipViews {
+    FlipExposures exposures;
+    std::vector<FlipView> views;
+};
+HdrFlipViews hdr_flip_views(const PictureView& reference,
+                            double pixels_per_degree = flip_pixels_per_degree());
+Plane hdr_flip(const PictureView& picture, const HdrFlipViews& reference,
                double pixels_per_degree = flip_pixels_per_degree());
 
 }  // namespace kinora

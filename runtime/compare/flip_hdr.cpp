@@ -30,6 +30,10 @@ double luminance(const vec4& c) {
     return 0.2126 * double(c.x) + 0.7152 * double(c.y) + 0.0722 * double(c.z);
 }
 
+void keep_larger(Plane& worst, const Plane& flip) {
+    for (size_t p = 0; p < worst.size(); ++p) worst[p] = std::max(worst[p], flip[p]);
+}
+
 std::vector<vec4> exposed(const PictureView& picture, double stops) {
     std::vector<vec4> result(picture.rgba.size());
     const double gain = std::exp2(stops);
@@ -57,15 +61,34 @@ FlipExposures flip_exposures(const PictureView& reference) {
     return e;
 }
 
+HdrFlipViews hdr_flip_views(const PictureView& reference, double ppd) {
+    HdrFlipViews made{flip_exposures(reference), {}};
+    for (int i = 0; i < made.exposures.count; ++i) {
+        std::vector<vec4> shown = exposed(reference, made.exposures.at(i));
+        made.views.push_back(flip_view({reference.width, reference.height, shown}, ppd));
+    }
+    return made;
+}
+
+Plane hdr_flip(const PictureView& picture, const HdrFlipViews& reference, double ppd) {
+    Plane worst(picture.width, picture.height);
+    for (size_t i = 0; i < reference.views.size(); ++i) {
+        std::vector<vec4> shown = exposed(picture, reference.exposures.at(int(i)));
+        const FlipView view = flip_view({picture.width, picture.height, shown}, ppd);
+        keep_larger(worst, ldr_flip(view, reference.views[i]));
+    }
+    return worst;
+}
+
+// One exposure after the other: views of all take much memory.
 Plane hdr_flip(const PictureView& picture, const PictureView& reference, double ppd) {
     const FlipExposures exposures = flip_exposures(reference);
     Plane worst(picture.width, picture.height);
     for (int i = 0; i < exposures.count; ++i) {
         std::vector<vec4> a = exposed(picture, exposures.at(i));
         std::vector<vec4> b = exposed(reference, exposures.at(i));
-        Plane flip =
-            ldr_flip({picture.width, picture.height, a}, {picture.width, picture.height, b}, ppd);
-        for (size_t p = 0; p < worst.size(); ++p) worst[p] = std::max(worst[p], flip[p]);
+        keep_larger(worst, ldr_flip({picture.width, picture.height, a},
+                                    {picture.width, picture.height, b}, ppd));
     }
     return worst;
 }

@@ -15,6 +15,13 @@
 namespace kinora {
 
 enum class TextureWrap : uint8_t { Wrap, Mirror, Clamp, Border };
+// From the fastest.
+enum class TextureFilter : uint8_t {
+    Nearest,      // the texel at s, t
+    Bilinear,     // four texels of the finest level
+    Trilinear,    // two levels at the longer side of the footprint
+    Anisotropic,  // up to 16 trilinear lookups along the longer side, at the shorter's level
+};
 enum class TextureMip : uint8_t { Linear, Nearest, None };  // between levels; None: the finest
 
 struct TextureName {

@@ -108,7 +108,7 @@ const Texture* find_texture(TextureStore& store, int32_t name) {
     return texture;
 }
 
-void lookup_texture(const jit::ServiceCall& call, TextureStore& store) {
+void lookup_texture(const jit::ServiceCall& call, TextureStore& store, TextureFilter best) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::texture, name).first;
     };
@@ -132,13 +132,14 @@ void lookup_texture(const jit::ServiceCall& call, TextureStore& store) {
         left &= ~same;
         int32_t filter = jit::bits_of(filters[std::countr_zero(same)]);
         if (const Texture* texture = texture_of(store, map, same))
-            sample_texture(texture->image->pyramid, texture->modes, filter_of(filter), same, lanes);
+            sample_texture(texture->image->pyramid, texture->modes,
+                           std::min(filter_of(filter), best), same, lanes);
         else
             fill_lanes(same, fill, call.results);
     }
 }
 
-void lookup_environment(const jit::ServiceCall& call, TextureStore& store) {
+void lookup_environment(const jit::ServiceCall& call, TextureStore& store, TextureFilter best) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::environment, name).first;
     };
@@ -159,7 +160,7 @@ void lookup_environment(const jit::ServiceCall& call, TextureStore& store) {
             lookup_cube(*texture->image, call, same);
         } else if (texture) {
             modes.nearest = texture->modes.nearest;
-            sample_texture(texture->image->pyramid, modes, TextureFilter::Anisotropic, same, lanes);
+            sample_texture(texture->image->pyramid, modes, best, same, lanes);
         } else {
             fill_lanes(same, fill, call.results);
         }

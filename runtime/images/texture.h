@@ -3,6 +3,7 @@
 
 #include "jit/ir/kernel.h"
 #include "runtime/base/math.h"
+#include "runtime/description/texture_name.h"
 
 namespace kinora {
 
@@ -15,12 +16,15 @@ class TextureStore;
 // image; a lookup whose s or t is NaN, and one of the name "", gives the fill colour. Grey images
 // answer as r = g = b. Channels the image has not are the fill colour; alpha, channel 3, is 1. An
 // image that cannot be read gives magenta and black checks and a finding of TextureStore::report.
-void lookup_texture(const jit::ServiceCall& call, TextureStore& store);
+// Lookups are filtered as the shader says, at most by `best`.
+void lookup_texture(const jit::ServiceCall& call, TextureStore& store,
+                    TextureFilter best = TextureFilter::Anisotropic);
 
 // The map is a latitude-longitude image, or one of six faces one above the other, as OpenEXR
 // defines them. Of the first: y is up, the centre looks along +z and +x lies a quarter of the width
 // left of it. R is taken as it is, in the map's own space. The direction 0 gives the fill colour.
-void lookup_environment(const jit::ServiceCall& call, TextureStore& store);
+void lookup_environment(const jit::ServiceCall& call, TextureStore& store,
+                        TextureFilter best = TextureFilter::Anisotropic);
 
 // The service "shadow": the share of the footprint of a point in "current" that lies behind what a
 // depth map saw. The map is an image that holds the matrices worldtocamera and worldtoscreen (or

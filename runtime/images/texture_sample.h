@@ -16,12 +16,6 @@ struct TextureLanes {
     float* results;  // [4][kMaxLanes], from `channel` on
 };
 
-enum class TextureFilter : uint8_t {
-    Nearest,      // the texel at s, t
-    Bilinear,     // four texels of the finest level
-    Trilinear,    // two levels at the longer side of the footprint
-    Anisotropic,  // up to kMaxTaps trilinear lookups along the longer side, at the shorter's level
-};
 inline constexpr int kMaxTaps = 16;
 
 // Looks up the lanes of `mask`; the others are not written.

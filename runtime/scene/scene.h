@@ -23,6 +23,7 @@
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
+#include "runtime/description/texture_name.h"
 #include "skin/dual_quaternion.h"
 #include "skin/morph.h"
 #include "skin/skin.h"
@@ -189,6 +190,7 @@ struct SceneOptions {
     int split = 1;  // hits of a path where both what is reflected and what passes is followed
     int ray_limit = 1000;  // rays that a camera ray's points may shoot (docs/rays.md#budgets)
     raytrace::AccelPolicy accel;
+    TextureFilter texture_filter = TextureFilter::Anisotropic;  // the best that lookups have
     bool decode_textures = true;  // 8-bit colours from sRGB; false: --color legacy
     uint32_t light_samples = 0;   // of area lights; 0: the file's, else 16
     // The weakest lights of a point cast no shadow rays and count as shadowed, up to this share of

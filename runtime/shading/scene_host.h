@@ -22,6 +22,7 @@ class SceneHost : public KernelHost {
     SceneHost(const Scene& scene, const ShaderInstance& look) : scene_(scene), look_(look) {}
 
     TextureStore& textures() const override;
+    TextureFilter best_filter() const override;
     dmat4 current_from_space(std::string_view name, size_t point) const override;
     dmat4 world_from_current() const override;
     // Once per instance and frame; the caller shows it.

@@ -28,6 +28,10 @@ void answer_handle(const jit::ServiceCall& call, int32_t handle) {
 TextureStore& SceneHost::textures() const {
     return *scene_.textures;
 }
+
+TextureFilter SceneHost::best_filter() const {
+    return scene_.options.texture_filter;
+}
 dmat4 SceneHost::current_from_space(std::string_view name, size_t) const {
     return kinora::current_from_space(scene_, name, look_.space_owner());
 }

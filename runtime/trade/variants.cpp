@@ -59,32 +59,18 @@ std::vector<size_t> shuffled(size_t count, uint32_t seed) {
     return order;
 }
 
-// Those of a knob that take no longer than final's samples.
-std::vector<std::string_view> affordable_settings(const Knob& knob) {
+// Those of a knob that a combination may have.
+std::vector<std::string_view> settings_for(const Knob& knob, const CombinationRequest& request) {
     std::vector<std::string_view> settings = knob.settings;
     if (knob.option == "spp")
         std::erase_if(settings, [&](std::string_view setting) {
-            return *knob_value(knob, setting) > double(qualities()[kFinal].samples_per_pixel);
+            return *knob_value(knob, setting) > double(request.most_samples);
         });
     return settings;
 }
 
-void add_combinations(VariantList& list, size_t count) {
-    std::vector<Quality> made(count, qualities()[kFinal]);
-    for (size_t k = 0; k < knobs().size(); ++k) {
-        const Knob& knob = knobs()[k];
-        std::vector<std::string_view> settings = affordable_settings(knob);
-        std::vector<size_t> order = shuffled(count, uint32_t(k + 1));
-        for (size_t i = 0; i < count; ++i)
-            CHECK(set_knob(knob, settings[order[i] * settings.size() / count], made[i]));
-    }
-    for (size_t i = 0; i < count; ++i) {
-        made[i].name = "";
-        list.add({.kind = VariantKind::Combination,
-                  .name = fmt::format("combination {}", i + 1),
-                  .base = made[i].samples_per_pixel <= kFewSamples ? kPreview : kFinal,
-                  .quality = made[i]});
-    }
+bool is_fixed(const Knob& knob, const CombinationRequest& request) {
+    return std::ranges::find(request.fixed, &knob) != request.fixed.end();
 }
 
 }  // namespace
@@ -94,13 +80,34 @@ const char* variant_kind_name(VariantKind kind) {
     return kNames[size_t(kind)];
 }
 
-std::vector<Variant> trade_variants(size_t combinations) {
+std::vector<Variant> trade_variants() {
     VariantList list;
     add_presets(list);
     add_knobs(list, kFinal);
     add_knobs(list, kPreview);
-    add_combinations(list, combinations);
     return std::move(list.rows);
+}
+
+void add_combinations(std::vector<Variant>& variants, const CombinationRequest& request) {
+    std::vector<Quality> made(request.count, qualities()[kFinal]);
+    for (size_t k = 0; k < knobs().size(); ++k) {
+        const Knob& knob = knobs()[k];
+        std::vector<std::string_view> settings = settings_for(knob, request);
+        if (settings.empty() || is_fixed(knob, request)) continue;
+        std::vector<size_t> order = shuffled(request.count, uint32_t(k + 1));
+        for (size_t i = 0; i < request.count; ++i)
+            CHECK(set_knob(knob, settings[order[i] * settings.size() / request.count], made[i]));
+    }
+    VariantList list;
+    for (Variant& variant : variants) list.add(std::move(variant));
+    for (size_t i = 0; i < made.size(); ++i) {
+        made[i].name = "";
+        list.add({.kind = VariantKind::Combination,
+                  .name = fmt::format("combination {}", i + 1),
+                  .base = made[i].samples_per_pixel <= kFewSamples ? kPreview : kFinal,
+                  .quality = made[i]});
+    }
+    variants = std::move(list.rows);
 }
 
 bool is_built_in(const Knob& knob) {

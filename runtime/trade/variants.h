@@ -20,10 +20,18 @@ struct Variant {
     Quality quality{};
 };
 
-// The presets in their order, each knob alone at each setting around `preview` and `final`, and as
-// many combinations: a Latin hypercube over the knobs, with at most final's samples. The same list
-// each time, without two of the same settings.
-std::vector<Variant> trade_variants(size_t combinations);
+// The presets in their order, and each knob alone at each setting around `final` and `preview`.
+// The same list each time, without two of the same settings.
+std::vector<Variant> trade_variants();
+
+// Combinations of settings: a Latin hypercube over the knobs.
+struct CombinationRequest {
+    size_t count = 24;
+    int most_samples = 64;               // settings of --spp with more are left out
+    std::vector<const Knob*> fixed{};    // these stay as `final` has them
+};
+// Adds them, without those that the list holds. The same ones for the same request.
+void add_combinations(std::vector<Variant>& list, const CombinationRequest& request);
 
 // Whether a scene must be built again for another setting of the knob; else it says only how
 // samples are made.

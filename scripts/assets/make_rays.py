@@ -126,4 +126,5 @@ def main():
         '<scene><instance_visual_scene url="#scene"/></scene>\n</COLLADA>\n')
 
 
-main()
+if __name__ == "__main__":
+    main()

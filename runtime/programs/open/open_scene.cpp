@@ -118,6 +118,7 @@ void set_quality(SceneOptions& o, const Quality& quality) {
     o.accel.refit_limit = float(quality.refit_limit);
     o.weak_lights = float(quality.weak_lights);
     o.light_samples = quality.light_samples;
+    o.texture_filter = quality.texture_filter;
     o.displacement = quality.displacement;
     o.skin_method = quality.skin_method;
     o.influences = uint32_t(quality.influences);

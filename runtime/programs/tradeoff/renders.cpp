@@ -8,6 +8,17 @@
 
 namespace kinora {
 
+namespace {
+
+WorkCounts work_of(const FrameStats& s) {
+    return {s.camera_rays.rays,        s.camera_rays.shadow_rays,    s.shader_rays.rays,
+            s.shader_rays.shadow_rays, s.camera_rays.packets,        s.shader_rays.packets,
+            s.shader_rays.shadow_packets, s.shading_points,          s.light_points,
+            uint64_t(s.refits),        uint64_t(s.rebuilds)};
+}
+
+}  // namespace
+
 double process_cpu_ms() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -64,6 +75,7 @@ TimedFrame TradeRenders::frame(Scene& scene, const Quality& quality, const Trade
     timed.whole = render(scene, quality, frame, seed, film, stats);
     timed.wall_ms = wall.ms();
     timed.cpu_ms = process_cpu_ms() - cpu;
+    timed.work = work_of(stats);
     double busy = 0;  // threads that wait take no CPU time
     for (size_t s = 0; s < kStageCount; ++s)
         if (Stage(s) != Stage::Idle) busy += stats.stages[s];

@@ -7,8 +7,12 @@
 
 namespace kinora {
 
+// Rays, points and updates of the tree: what a frame did, whatever the machine does besides.
+using WorkCounts = std::array<uint64_t, 11>;
+
 struct TimedFrame {
     double cpu_ms = 0, wall_ms = 0;
+    WorkCounts work{};
     std::array<double, kStageCount> stages{};  // CPU ms; they sum to cpu_ms
     bool whole = false;
 };

@@ -79,8 +79,9 @@ std::string summary_html(const TradeResults& r) {
     if (r.plan.final_samples > 0)
         text += fmt::format(
             "<p>To keep within the budget, final's knobs were measured with {} samples, beside a "
-            "base with as many.</p>\n",
-            r.plan.final_samples);
+            "base with as many{}.</p>\n",
+            r.plan.final_samples,
+            r.plan.preview_samples > 0 ? ", and preview's likewise" : "");
     return text +
            "<p>Times are CPU times of a frame: the median of its ratios to the base's renders "
            "before "
@@ -114,8 +115,8 @@ std::string row_cells(const TradeRow& row, const TradeResults& r) {
     }
     const TradeErrors& e = row.errors;
     text += optional_cell(e.vertex_units) + optional_cell(e.vertex_pixels) +
-            number_cell(e.hit_distance) + number_cell(e.hit_mismatch) + number_cell(e.ulp_max) +
-            number_cell(e.ulp_p99);
+            number_cell(e.hit_distance) + number_cell(e.hit_mismatch) + optional_cell(e.ulp_max) +
+            optional_cell(e.ulp_p99);
     return text + number_cell(100 * row.off_front, "{:.0f} %") +
            fmt::format("<td>{}</td></tr>\n", row.same_picture ? "yes" : "");
 }

@@ -36,8 +36,8 @@ TradeJson errors_json(const TradeErrors& errors) {
     json["vertex_pixels"] = optional_json(errors.vertex_pixels);
     json["hit_distance"] = finite_json(errors.hit_distance);
     json["hit_mismatch"] = errors.hit_mismatch;
-    json["ulp_max"] = finite_json(errors.ulp_max);
-    json["ulp_p99"] = finite_json(errors.ulp_p99);
+    json["ulp_max"] = optional_json(errors.ulp_max);
+    json["ulp_p99"] = optional_json(errors.ulp_p99);
     return json;
 }
 
@@ -64,6 +64,7 @@ TradeJson row_json(const TradeRow& row, const TradeResults& results) {
         json["settings"][std::string(knob.option)] = setting_json(knob, row.variant.quality);
     if (!row.measured()) {
         json["not_measured"] = row.not_measured;
+        json["same_as_base"] = row.as_base;
         return json;
     }
     json["times"] = times_json(row.times);
@@ -127,9 +128,9 @@ std::string tradeoff_csv(const TradeResults& r) {
         for (const TradeMetric& metric : trade_metrics())
             text += "," + error_text(metric, row, r.floor);
         const TradeErrors& e = row.errors;
-        text += fmt::format(",{},{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", optional(e.vertex_units),
-                            optional(e.vertex_pixels), e.hit_distance, e.hit_mismatch, e.ulp_max,
-                            e.ulp_p99, int(row.on_front));
+        text += fmt::format(",{},{},{:.6g},{:.6g},{},{},{}\n", optional(e.vertex_units),
+                            optional(e.vertex_pixels), e.hit_distance, e.hit_mismatch,
+                            optional(e.ulp_max), optional(e.ulp_p99), int(row.on_front));
     }
     return text;
 }

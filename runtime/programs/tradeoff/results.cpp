@@ -102,7 +102,14 @@ std::string plan_text(const TradeResults& r) {
         text += fmt::format(" (asked {}x{})", r.asked_width, r.asked_height);
     text += fmt::format(", frame {}; reference of {} samples, estimated {:.0f} s; ", frames_text(r),
                         plan.reference_samples, 1e-3 * plan.reference_ms);
-    text += fmt::format("{} variants, {} times each", r.rows.size(), plan.frames * plan.rounds);
+    size_t as_base = 0, combinations = 0;
+    for (const TradeRow& row : r.rows) {
+        as_base += row.as_base;
+        combinations += row.variant.kind == VariantKind::Combination;
+    }
+    text += fmt::format(
+        "{} variants, of which {} do nothing here and {} are combinations, {} times each",
+        r.rows.size(), as_base, combinations, plan.frames * plan.rounds);
     if (plan.final_samples > 0)
         text += fmt::format(", final's knobs with {} samples", plan.final_samples);
     text += fmt::format(", estimated {:.0f} s; budget {:g} s{}", 1e-3 * plan.variants_ms,

@@ -23,8 +23,8 @@ struct TradeErrors {
     double hit_distance = 0;  // largest, of rays through pixels' centres that both hit; units
     double hit_mismatch = 0;  // share of such rays that one of them hits alone
     // Of colours at pixels' centres: how many floats lie between. Over the pixels that hit the
-    // same.
-    double ulp_max = 0, ulp_p99 = 0;
+    // same. Measured of presets and of knobs that change arithmetic.
+    std::optional<double> ulp_max, ulp_p99;
 };
 
 // An error by its name: a column of the reports.
@@ -53,6 +53,7 @@ struct TradeTimes {
 struct TradeRow {
     Variant variant{};
     std::string not_measured{};  // why; "": it was
+    bool as_base = false;        // not measured, since a survey found no difference to its base
     bool same_picture = false;   // the bits of its base's picture in all frames
     TradeTimes times{};
     TradeErrors errors{};

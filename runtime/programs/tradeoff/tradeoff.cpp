@@ -71,15 +71,16 @@ std::string tradeoff_text(const TradeResults& r) {
         if (row.off_front > kMostOffFront)
             text += fmt::format("  off the front by {:.0f} %\n", 100 * row.off_front);
     }
-    size_t measured = 0, other = 0;
+    size_t measured = 0, other = 0, as_base = 0;
     for (const TradeRow& row : r.rows) {
         measured += row.measured();
+        as_base += row.as_base;
         other += row.measured() && row.variant.kind == VariantKind::Knob && row.same_picture;
     }
     return text + fmt::format(
-                      "{} of {} variants measured in {:.1f} s of {:g} s; {} knobs' settings "
-                      "have the bits of their base's pictures\n",
-                      measured, r.rows.size(), r.used_s, r.budget_s, other);
+                      "{} of {} variants measured in {:.1f} s of {:g} s; {} others do nothing "
+                      "here; {} knobs' settings have the bits of their base's pictures\n",
+                      measured, r.rows.size(), r.used_s, r.budget_s, as_base, other);
 }
 
 }  // namespace kinora

@@ -6,9 +6,15 @@
 
 namespace kinora {
 
-// Of scenes at `final` and `reference`; without what building takes. `width` and `height` are those
-// asked for. The renders are left with a smaller size.
-TrialCosts trial_costs(TradeRenders& renders, Scene& final_scene, Scene& reference_scene,
-                       const TradeFrame& frame, int width, int height);
+struct TrialRequest {
+    Scene &final_scene, &reference_scene;  // scenes at these presets
+    const TradeFrame& frame;
+    int width = 0, height = 0;  // asked for
+    double budget_ms = 0;
+};
+
+// Without what building takes. By a small frame, then by one of the size asked for, if that takes
+// little of the budget. The renders are left with some size of these.
+TrialCosts trial_costs(TradeRenders& renders, const TrialRequest& request);
 
 }  // namespace kinora

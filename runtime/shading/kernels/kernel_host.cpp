@@ -61,10 +61,10 @@ void ask_host(const jit::ServiceCall& call) {
 }
 
 void texture(const jit::ServiceCall& call) {
-    lookup_texture(call, host_of(call).textures());
+    lookup_texture(call, host_of(call).textures(), host_of(call).best_filter());
 }
 void environment(const jit::ServiceCall& call) {
-    lookup_environment(call, host_of(call).textures());
+    lookup_environment(call, host_of(call).textures(), host_of(call).best_filter());
 }
 void texture_info(const jit::ServiceCall& call) {
     lookup_texture_info(call, host_of(call).textures());

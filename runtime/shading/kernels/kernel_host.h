@@ -6,6 +6,7 @@
 
 #include "jit/ir/kernel.h"
 #include "runtime/base/math.h"
+#include "runtime/description/texture_name.h"
 
 namespace kinora {
 
@@ -18,6 +19,7 @@ class KernelHost {
     virtual ~KernelHost() = default;
 
     virtual TextureStore& textures() const = 0;
+    virtual TextureFilter best_filter() const { return TextureFilter::Anisotropic; }
     // `point`: of the kernel's points, for spaces that differ among them.
     virtual dmat4 current_from_space(std::string_view name, size_t point) const = 0;
     virtual dmat4 world_from_current() const = 0;

@@ -54,19 +54,28 @@ struct Results {
     float r[4][jit::kMaxLanes];
 };
 
+struct Footprint {
+    float dsdx = 0, dtdy = 0;
+    TextureFilter best = TextureFilter::Anisotropic;
+};
+
 // The "texture" service at one place, the same for all lanes.
-Results call_texture(const std::vector<int32_t>& names, float s, float t, float fill = 0) {
+Results call_texture(const std::vector<int32_t>& names, float s, float t, float fill = 0,
+                     const Footprint& footprint = {}) {
     constexpr int kLanes = jit::kMaxLanes;
     alignas(64) float args[13][kLanes] = {};
     for (int i = 0; i < kLanes; ++i) {
         args[0][i] = jit::float_of(names[size_t(i) % names.size()]);
         args[2][i] = s;
         args[3][i] = t;
+        args[4][i] = footprint.dsdx;
+        args[7][i] = footprint.dtdy;
         args[9][i] = args[10][i] = 1;
         args[12][i] = fill;
     }
     Results results{};
-    lookup_texture({nullptr, args[0], results.r[0], 0xffff, 0, kLanes}, TextureStore::process());
+    lookup_texture({nullptr, args[0], results.r[0], 0xffff, 0, kLanes}, TextureStore::process(),
+                   footprint.best);
     return results;
 }
 
@@ -84,6 +93,34 @@ Results call_environment(int32_t name, float x, float y, float z, float fill = 0
     lookup_environment({nullptr, args[0], results.r[0], 0xffff, 0, kLanes},
                        TextureStore::process());
     return results;
+}
+
+// Rows of white and black. A footprint of a texel by the whole width, in the middle of a white row:
+// eight taps along it see the row alone; one tap as wide as the longer side sees the mean of all.
+// The lesser filters look at the finest level whatever the footprint.
+TEST_F(TextureFiles, AreFilteredAtMostAsTheSceneSays) {
+    Image8 image{8, 8, {}};
+    for (int i = 0; i < 64; ++i) {
+        const uint8_t grey = i / 8 % 2 ? 255 : 0;
+        image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});
+    }
+    const std::string path = (folder_ / "rows.png").string();
+    ASSERT_EQ(write_png(path, image, {}), "");
+    const std::vector<int32_t> names{rsl::intern(path)};
+    auto seen = [&](float dtdy, TextureFilter best) {
+        return call_texture(names, 0.5625f, 0.5625f, 0, {1, dtdy, best}).r[0][0];
+    };
+    EXPECT_NEAR(seen(0.125f, TextureFilter::Anisotropic), 1, 0.01);
+    EXPECT_NEAR(seen(0.125f, TextureFilter::Trilinear), 0.5, 0.01);
+    EXPECT_NEAR(seen(1, TextureFilter::Anisotropic), 0.5, 0.01);
+    EXPECT_NEAR(seen(1, TextureFilter::Bilinear), 1, 0.01);
+    EXPECT_NEAR(seen(1, TextureFilter::Nearest), 1, 0.01);
+    // Between two rows the one is halfway and the other on a row.
+    auto between = [&](TextureFilter best) {
+        return call_texture(names, 0.5625f, 0.5f, 0, {1, 1, best}).r[0][0];
+    };
+    EXPECT_NEAR(between(TextureFilter::Bilinear), 0.5, 0.01);
+    EXPECT_EQ(std::abs(between(TextureFilter::Nearest) - 0.5f), 0.5f);
 }
 
 TEST_F(TextureFiles, AMissingFileShowsChecksAndIsReportedOnceAScene) {

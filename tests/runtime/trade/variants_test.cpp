@@ -10,8 +10,14 @@
 namespace kinora {
 namespace {
 
+std::vector<Variant> with_combinations(const CombinationRequest& request = {}) {
+    std::vector<Variant> variants = trade_variants();
+    add_combinations(variants, request);
+    return variants;
+}
+
 TEST(Variants, BeginWithThePresets) {
-    std::vector<Variant> variants = trade_variants(0);
+    std::vector<Variant> variants = trade_variants();
     ASSERT_GE(variants.size(), kPresets);
     for (size_t p = 0; p < kPresets; ++p) {
         EXPECT_EQ(variants[p].name, kPresetNames[p]);
@@ -22,7 +28,7 @@ TEST(Variants, BeginWithThePresets) {
 
 TEST(Variants, HoldEachSettingOfEachKnobAroundPreviewAndFinal) {
     std::set<std::string> measured;
-    for (const Variant& variant : trade_variants(0)) measured.insert(knob_texts(variant.quality));
+    for (const Variant& variant : trade_variants()) measured.insert(knob_texts(variant.quality));
     for (const Knob& knob : knobs())
         for (std::string_view setting : knob.settings)
             for (const char* base : {"preview", "final"}) {
@@ -34,7 +40,7 @@ TEST(Variants, HoldEachSettingOfEachKnobAroundPreviewAndFinal) {
 
 TEST(Variants, DifferInOneKnobAndAreNoTwoAlike) {
     std::set<std::string> settings, names;
-    for (const Variant& variant : trade_variants(24)) {
+    for (const Variant& variant : with_combinations()) {
         EXPECT_TRUE(settings.insert(knob_texts(variant.quality)).second) << variant.name;
         EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
         if (!variant.knob) continue;
@@ -48,7 +54,7 @@ TEST(Variants, DifferInOneKnobAndAreNoTwoAlike) {
 
 // A Latin hypercube: each setting comes up as often as the others, give or take one.
 TEST(Variants, CombineAllSettingsEvenly) {
-    std::vector<Variant> variants = trade_variants(24);
+    std::vector<Variant> variants = with_combinations();
     std::erase_if(variants, [](auto& v) { return v.kind != VariantKind::Combination; });
     ASSERT_EQ(variants.size(), 24u);
     for (const Knob& knob : knobs()) {
@@ -60,6 +66,20 @@ TEST(Variants, CombineAllSettingsEvenly) {
         size_t settings = knob.settings.size() - (knob.option == "spp" ? 2 : 0);  // up to 64
         EXPECT_EQ(counts.size(), settings) << knob.option;
     }
+}
+
+TEST(Variants, CombineWithinWhatIsAskedFor) {
+    CombinationRequest request{.count = 5, .most_samples = 4, .fixed = {find_knob("skin")}};
+    std::vector<Variant> variants = with_combinations(request);
+    std::erase_if(variants, [](auto& v) { return v.kind != VariantKind::Combination; });
+    ASSERT_EQ(variants.size(), 5u);
+    std::set<std::string> math;
+    for (const Variant& variant : variants) {
+        EXPECT_LE(variant.quality.samples_per_pixel, 4);
+        EXPECT_EQ(knob_text(*find_knob("skin"), variant.quality), "linear");
+        math.insert(knob_text(*find_knob("math"), variant.quality));
+    }
+    EXPECT_EQ(math.size(), 2u);
 }
 
 TEST(Variants, ShareScenesWhereOnlySamplesDiffer) {

@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Writes assets/scenes/studio.dae and its picture: a tiled floor seen along it, a lamp with a face, two mirrors that
+see each other, and glass that blows up. What knobs of light, textures and rays trade shows here.
+
+    python3 make_studio.py ../../assets/scenes/studio.dae
+"""
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from make_rays import effect, geometry, icosphere, place, quad  # noqa: E402
+
+TILES = 64  # pixels a side of the picture
+FRAMES = 24
+
+
+def png(path):
+    """Eight by eight tiles with a line between them."""
+    def pixel(x, y):
+        if x % 8 == 0 or y % 8 == 0:
+            return b"\x28\x28\x30"
+        return b"\xe6\xdc\xc8" if (x // 8 + y // 8) % 2 else b"\x8c\x32\x28"
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    rows = b"".join(b"\0" + b"".join(pixel(x, y) for x in range(TILES)) for y in range(TILES))
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", TILES, TILES, 8, 2, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def tiled(name, picture):
+    return (f'<effect id="{name}-fx"><profile_COMMON><newparam sid="s"><surface type="2D"><init_from>{name}-image'
+            '</init_from></surface></newparam><newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>'
+            '<technique sid="default"><lambert><diffuse><texture texture="t" texcoord="UV"/></diffuse></lambert>'
+            '</technique></profile_COMMON></effect>\n',
+            f'<material id="{name}"><instance_effect url="#{name}-fx"/></material>\n',
+            f'<image id="{name}-image"><init_from>{picture}</init_from></image>\n')
+
+
+def code_of(name, stages, code):
+    passes = "".join(f'<shader stage="{stage}"><name>{shader}</name></shader>' for stage, shader in stages)
+    return (f'<effect id="{name}-fx"><profile_RSL><technique sid="default"><code><![CDATA[{code}]]></code>'
+            f'<pass>{passes}</pass></technique></profile_RSL></effect>\n',
+            f'<material id="{name}"><instance_effect url="#{name}-fx"/></material>\n')
+
+
+MIRROR = """
+surface mirror(color tint = color(0.9, 0.93, 0.95);) {
+    normal Nf = faceforward(normalize(N), I);
+    Oi = 1;
+    Ci = tint * trace(P, reflect(normalize(I), Nf)) + 0.02 * diffuse(Nf);
+}
+"""
+PANEL = """
+light panel(float intensity = 9; color lightcolor = color(1, 0.95, 0.86);) {
+    illuminate(P, N, 1.5707963) Cl = intensity * lightcolor * max(0, normalize(L) . normalize(N)) / (L . L);
+}
+surface glow(color lightcolor = color(1, 0.95, 0.86);) { Oi = 1; Ci = lightcolor; }
+"""
+SKY = """
+surface sky() { Oi = 1; Ci = mix(color(0.75, 0.8, 0.85), color(0.2, 0.4, 0.7), t); }
+"""
+
+
+def floor():
+    """A quad of 60 by 60 units whose picture repeats 15 times, with its texture coordinates."""
+    mesh = geometry("floor", quad([(-30, 0, 10), (30, 0, 10), (30, 0, -50), (-30, 0, -50)], (0, 1, 0)))
+    uv = ('<source id="floor-u"><float_array id="floor-u-a" count="8">0 0 15 0 15 15 0 15</float_array>'
+          '<technique_common><accessor source="#floor-u-a" count="4" stride="2"><param name="S" type="float"/>'
+          '<param name="T" type="float"/></accessor></technique_common></source>\n')
+    mesh = mesh.replace('<vertices ', uv + '<vertices ', 1)
+    return mesh.replace('offset="0"/><p>', 'offset="0"/><input semantic="TEXCOORD" source="#floor-u" offset="0" '
+                        'set="0"/><p>', 1)
+
+
+def morph(name, levels):
+    """A ball that becomes one of 2.5 times the size, ever more lengthened: boxes of its tree grow."""
+    points, normals, faces = icosphere(levels)
+    grown = [(2.5 * x, 2.5 * y * (1 + 0.5 * y), 2.5 * z) for x, y, z in points]
+    return (geometry(name, (points, normals, faces)) + geometry(f"{name}-grown", (grown, normals, faces)),
+            f'<controller id="{name}-morph"><morph source="#{name}" method="NORMALIZED">'
+            f'<source id="{name}-targets"><IDREF_array id="{name}-targets-a" count="1">{name}-grown</IDREF_array>'
+            f'<technique_common><accessor source="#{name}-targets-a" count="1"><param name="MORPH_TARGET" type="IDREF"/>'
+            '</accessor></technique_common></source>'
+            f'<source id="{name}-weights"><float_array id="{name}-weights-a" count="1">0</float_array>'
+            f'<technique_common><accessor source="#{name}-weights-a" count="1"><param name="MORPH_WEIGHT" type="float"/>'
+            '</accessor></technique_common></source>'
+            f'<targets><input semantic="MORPH_TARGET" source="#{name}-targets"/>'
+            f'<input semantic="MORPH_WEIGHT" source="#{name}-weights"/></targets></morph></controller>\n')
+
+
+def animation(name):
+    def source(part, kind, values, param):
+        array = "Name_array" if kind == "name" else "float_array"
+        return (f'<source id="grow-{part}"><{array} id="grow-{part}-a" count="{len(values)}">{" ".join(values)}</{array}>'
+                f'<technique_common><accessor source="#grow-{part}-a" count="{len(values)}"><param name="{param}" '
+                f'type="{kind}"/></accessor></technique_common></source>')
+    return ('<library_animations><animation id="grow">' + source("in", "float", ["0", f"{FRAMES / 24:g}"], "TIME") +
+            source("out", "float", ["0", "1"], "WEIGHT") + source("way", "name", ["LINEAR", "LINEAR"], "INTERPOLATION") +
+            '<sampler id="grow-s"><input semantic="INPUT" source="#grow-in"/><input semantic="OUTPUT" '
+            'source="#grow-out"/><input semantic="INTERPOLATION" source="#grow-way"/></sampler>'
+            f'<channel source="#grow-s" target="{name}-weights(0)"/></animation></library_animations>\n')
+
+
+def place_morph(name, look, transform):
+    return (f'<node>{transform}<instance_controller url="#{name}-morph"><bind_material><technique_common>'
+            f'<instance_material symbol="skin" target="#{look}"/></technique_common></bind_material>'
+            '</instance_controller></node>\n')
+
+
+def main():
+    out_path = Path(sys.argv[1])
+    png(out_path.parent / "studio_tiles.png")
+    tiles = tiled("tiles", "studio_tiles.png")
+    effects = [tiles[:2], effect("glass", "glass"), code_of("mirror", [("SURFACE", "mirror")], MIRROR),
+               code_of("sky", [("SURFACE", "sky")], SKY), code_of("panel", [("LIGHT", "panel"), ("SURFACE", "glow")], PANEL)]
+    meshes, controller = morph("drop", 3)
+    meshes += floor() + geometry("left", quad([(-2.2, 0, 1), (-2.2, 0, -5), (-2.2, 3, -5), (-2.2, 3, 1)], (1, 0, 0)))
+    meshes += geometry("right", quad([(2.2, 0, -5), (2.2, 0, 1), (2.2, 3, 1), (2.2, 3, -5)], (-1, 0, 0)))
+    meshes += geometry("lamp", quad([(-0.8, 3.4, 0), (-0.8, 3.4, -2), (0.8, 3.4, -2), (0.8, 3.4, 0)], (0, -1, 0)))
+    meshes += geometry("ball", icosphere(3))
+    meshes += geometry("sky", quad([(-60, -1, -49), (60, -1, -49), (60, 40, -49), (-60, 40, -49)], (0, 0, 1)))
+    nodes = (place("floor", "tiles").replace("</instance_material>", "").replace(
+        'target="#tiles"/>', 'target="#tiles"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" '
+        'input_set="0"/></instance_material>') + place("left", "mirror") + place("right", "mirror") +
+        place("lamp", "panel") + place("sky", "sky") + place_morph("drop", "glass", "<translate>0.9 0.75 -0.6</translate>"
+                                             "<scale>0.3 0.3 0.3</scale>") +
+        place("ball", "glass", "<translate>-0.9 0.5 -0.2</translate><scale>0.5 0.5 0.5</scale>") +
+        place("ball", "mirror", "<translate>0 0.6 -2.4</translate><scale>0.6 0.6 0.6</scale>"))
+    out_path.write_text(
+        '<?xml version="1.0" encoding="utf-8"?>\n<!-- Made by scripts/assets/make_studio.py. -->\n'
+        '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">\n<asset>'
+        '<created>2026-11-24T00:00:00Z</created><modified>2026-11-24T00:00:00Z</modified>'
+        '<unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>\n' + animation("drop") +
+        '<library_cameras><camera id="eye"><optics><technique_common><perspective><yfov>40</yfov>'
+        '<aspect_ratio>1.3333</aspect_ratio><znear>0.1</znear><zfar>200</zfar></perspective></technique_common></optics>'
+        '</camera></library_cameras>\n'
+        '<library_images>\n' + tiles[2] + '</library_images>\n'
+        '<library_effects>\n' + "".join(e for e, _ in effects) + '</library_effects>\n'
+        '<library_materials>\n' + "".join(m for _, m in effects) + '</library_materials>\n'
+        '<library_geometries>\n' + meshes + '</library_geometries>\n'
+        '<library_controllers>\n' + controller + '</library_controllers>\n'
+        '<library_visual_scenes><visual_scene id="scene">\n'
+        '<node id="eye-node"><translate>0 1.3 4.5</translate><rotate>1 0 0 -4</rotate><instance_camera url="#eye"/>'
+        '</node>\n' + nodes + '</visual_scene></library_visual_scenes>\n'
+        '<scene><instance_visual_scene url="#scene"/></scene>\n</COLLADA>\n')
+
+
+if __name__ == "__main__":
+    main()
