@@ -37,9 +37,10 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
              float tfar, float bias, uint32_t path, uint32_t slot, float share = 1);
 
-// Gives the ray added last the spread of the ray that saw `hit`, as far as directions go: without
-// it the footprint stays as wide as it is at `hit`.
-void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32_t hit);
+// Gives the ray added last the spread of the ray that saw `hit`, as far as directions go, and what
+// a curved mirror adds: without it the footprint stays as wide as it is at `hit`.
+void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitBatch& from,
+                uint32_t hit);
 
 // The share of the eye's ray that each ray of a point's next call of so many samples has, which
 // keeps shaders that shoot several rays a hit from multiplying them without end (BMRT and PRMan
@@ -83,6 +84,9 @@ class SmoothSurface {
     // those where it is not 0.
     uint32_t ways_from(const raytrace::HitBatch& hits, const uint32_t* hit, uint32_t lanes,
                        raytrace::LeavingRays& rays);
+    // How its unit normal on the side that the hit's ray came from turns over the hit's footprint,
+    // a pixel in x and in y. False where it is flat.
+    bool bend_at(const raytrace::HitBatch& hits, uint32_t hit, vec3& dNdx, vec3& dNdy);
 
   private:
     // What a row of the scene has for its normals.
@@ -220,6 +224,7 @@ class LaneRays {
     bool of_light() const;
     void find_hits(int P);
     void enter_hits();
+    void enter_bends();
     void enter_starts(int P);
     const float* arguments(int row) const;
     void aim();
