@@ -175,6 +175,7 @@ CacheStats cache_stats() {
     std::lock_guard lock(cache().mutex);
     CacheStats stats;
     stats.total_ms = cache().total_ms;
+    stats.derivative_values = derivative_values();
     for (const auto& [key, future] : cache().kernels) {
         ++stats.kernels;
         if (future.wait_for(std::chrono::seconds(0)) == std::future_status::ready)

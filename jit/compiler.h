@@ -35,6 +35,7 @@ KernelPair compile(Module module, const CompileOptions& options = {});
 struct CacheStats {
     size_t kernels = 0;
     size_t code_bytes = 0;
+    size_t derivative_values = 0;  // jit/passes/passes.h
     double total_ms = 0;
 };
 CacheStats cache_stats();

@@ -14,9 +14,17 @@ void Film::resize(int w, int h) {
     CHECK_GE(h, 1);
     width = w;
     height = h;
+    top = 0;
+    is_band = false;
     rgba.resize(size_t(w) * size_t(h));
     for (AovPlane& plane : aovs) plane.values.resize(rgba.size());
     clear();
+}
+
+void Film::hold_band(int w, int first, int rows) {
+    resize(w, rows);
+    top = first;
+    is_band = true;
 }
 
 void Film::add_aov(std::string name, AovFilter filter) {

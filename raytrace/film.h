@@ -34,13 +34,17 @@ struct AovPlane {
 struct Film {
     int width = 0;
     int height = 0;
+    int top = 0;             // a band begins at that row of its picture
+    bool is_band = false;    // else the film is the whole picture
     std::vector<vec4> rgba;  // width * height, rows from the top
     std::vector<AovPlane> aovs;
     uint64_t non_finite = 0;  // shading results that were not finite, since clear()
 
     Film() = default;
     Film(int w, int h) { resize(w, h); }
-    void resize(int w, int h);  // and clear
+    void resize(int w, int h);  // and clear: of a whole picture
+    // The rows from `first` on of a picture, cleared. Pictures too large for memory are made so.
+    void hold_band(int w, int first, int rows);
     void add_aov(std::string name, AovFilter filter = AovFilter::Mean);
     void clear();  // all to 0; keeps memory and AOVs
     vec4& at(int x, int y) { return rgba[size_t(y) * size_t(width) + size_t(x)]; }

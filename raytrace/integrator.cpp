@@ -24,11 +24,11 @@ void IntegratorCounters::operator+=(const IntegratorCounters& o) {
 
 namespace {
 
-// Rows of tiles from the top, left to right.
+// Rows of tiles from the top, left to right; pixels of the whole picture.
 Tile tile_at(const Film& film, int size, int index) {
     const int across = (film.width + size - 1) / size;
-    const int x = index % across * size, y = index / across * size;
-    return {x, y, std::min(x + size, film.width), std::min(y + size, film.height)};
+    const int x = index % across * size, y = film.top + index / across * size;
+    return {x, y, std::min(x + size, film.width), std::min(y + size, film.top + film.height)};
 }
 
 // Halved while the rays of all samples would not stay in the second cache.
@@ -47,8 +47,12 @@ int tile_count(const Film& film, int size) {
 
 void prepare(Film& film, const Camera& camera, const IntegratorSettings& settings, bool misses,
              IntegratorScratch& scratch) {
-    if (film.width != camera.width || film.height != camera.height)
+    if (film.is_band) {
+        CHECK_EQ(film.width, camera.width);
+        CHECK_LE(film.top + film.height, camera.height);
+    } else if (film.width != camera.width || film.height != camera.height) {
         film.resize(camera.width, camera.height);
+    }
     const PixelFilter* filter = settings.filter ? settings.filter : &pixel_filters()[0];
     if (!scratch.filter || scratch.filter_row != filter ||
         scratch.filter_width != settings.filter_width) {

@@ -346,7 +346,8 @@ void TileJob::finish_samples() {
 void TileJob::write_tile() const {
     const double weight = 1.0 / settings_.samples_per_pixel;
     for (size_t pixel = 0; pixel < tile_.pixels(); ++pixel) {
-        const int x = tile_.x0 + int(m_.order.x[pixel]), y = tile_.y0 + int(m_.order.y[pixel]);
+        const int x = tile_.x0 + int(m_.order.x[pixel]);
+        const int y = tile_.y0 - film_.top + int(m_.order.y[pixel]);
         vec4& out = film_.at(x, y);
         for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[4 * pixel + size_t(c)]);
         const size_t at = size_t(y) * size_t(film_.width) + size_t(x);

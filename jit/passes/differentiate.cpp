@@ -3,6 +3,7 @@
 // Each planned value is followed by its derivatives: loop variables, merges and arrays get a second
 // of their kind, calls of functions without a rule go to a copy that takes and gives derivatives.
 #include <algorithm>
+#include <atomic>
 #include <map>
 
 #include "jit/ir/normalize.h"
@@ -14,6 +15,8 @@
 namespace kinora::jit {
 
 namespace {
+
+std::atomic<size_t> g_derivative_values{0};
 
 constexpr int kDirections = 2;
 bool has(uint8_t directions, int d) {
@@ -75,7 +78,10 @@ class Differentiator {
         Dual known = dual(d, old);
         return known == kNone ? b_.f(0) : known;
     }
-    void set_dual(int d, Value old, Dual value) { duals_[static_cast<size_t>(d)][old] = value; }
+    void set_dual(int d, Value old, Dual value) {
+        duals_[static_cast<size_t>(d)][old] = value;
+        if (value != kNone) g_derivative_values.fetch_add(1, std::memory_order_relaxed);
+    }
 
     Inst translate(Value v) const {
         Inst inst = old_[v];
@@ -352,6 +358,10 @@ void differentiate(Module& module) {
     for (size_t k = 0; k < module.functions.size(); ++k)
         if (holds(module.functions[k], {Op::Du, Op::Dv, Op::WithSlope}))
             Differentiator(copies, k, 0).run();
+}
+
+size_t derivative_values() {
+    return g_derivative_values.load(std::memory_order_relaxed);
 }
 
 }  // namespace kinora::jit

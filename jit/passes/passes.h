@@ -15,6 +15,8 @@ namespace kinora::jit {
 //
 // replaces Du and Dv by dual numbers for the values that reach them
 void differentiate(Module& module);
+// Values that it made derivatives of, since the process began.
+size_t derivative_values();
 // inlines functions with one call site or under 40 instructions
 void inline_calls(Module& module);
 // removes what nothing needs

@@ -16,6 +16,7 @@ V3 sum_of_lights(LowerCall& c, const V3& position, const V3* axis, Term&& term) 
     Value set = c.lights.set_at(position);
     const bool ambient = axis == nullptr;
     if (axis) c.lights.look_about(set, axis);
+    c.lights.look_at_all(ambient);
     std::array<Value, 3> sum = {e.f(0), e.f(0), e.f(0)};
     for_each_record(c.b, set, sum, c.where(), [&](Value record) {
         Value kind = record_uniform(c.b, set, record, kLightKind, jit::Type::I);

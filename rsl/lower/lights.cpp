@@ -49,6 +49,7 @@ void Illuminance::lower(const IlluminanceStmt& stmt) {
     Value set = records_.set_at(position.v3());
     LightCone around = cone_of(e_, tree_, stmt.axis, stmt.angle);
     records_.look_about(set, around.half ? &around.axis : nullptr);
+    if (!stmt.category) records_.look_at_all(false);
     loops_.replay(stmt, set,
                   [&](Value record) { light_body(stmt, set, record, around, position); });
 }
@@ -116,7 +117,8 @@ void LightShader::begin(const Changes& changes) {
         light.L = slots_.add(zero(e_, BaseType::Vector));
         light.Cl = slots_.add(dark), light.Ol = slots_.add(dark);
         light.lit = slots_.add(zero(e_, BaseType::Bool));
-        loops_.add_written(stmt, {light.L, light.Cl, light.Ol, light.lit});
+        light.spread = slots_.add(zero(e_, BaseType::Float));
+        loops_.add_written(stmt, {light.L, light.Cl, light.Ol, light.lit, light.spread});
     }
     bool shadows = !(changes.effects & (kShadows | kTraces));
     for (const Source& light : sources_)
@@ -135,6 +137,9 @@ void LightShader::illuminate(const Stmt& stmt, const Expr* position, const Expr*
         L = e_.normalize(tree_.expr(*axis).v3());
     else
         L = e_.neg(e_.normalize(globals_.read(Global::Ns).v3()));
+    Lowered spread;
+    if (!position && axis) spread = tree_.expr(*angle);
+    const bool spreads = !position && axis && !e_.is_zero(spread.c[0]);
     Value lit = b_.m(true);
     if (position) lit = inside(e_, cone_of(e_, tree_, axis, angle), L);
     regions_.guarded(b_.logical_and(e_.running, lit), [&] {
@@ -148,6 +153,7 @@ void LightShader::illuminate(const Stmt& stmt, const Expr* position, const Expr*
             slots_.write(light.Cl, globals_.read(Global::Cl));
             slots_.write(light.Ol, globals_.read(Global::Ol));
             slots_.write(light.lit, lowered(BaseType::Bool, e_.running));
+            if (spreads) slots_.write(light.spread, spread);
         }
     });
     for (Source& light : sources_)
@@ -184,6 +190,8 @@ void LightShader::outputs() {
         const Source& light = sources_[k];
         record(k, slots_.read(light.L), at_end(light, Global::Cl, light.Cl, light.left_Cl),
                at_end(light, Global::Ol, light.Ol, light.left_Ol), slots_.read(light.lit).c[0]);
+        const Value spread = slots_.read(light.spread).c[0];
+        if (!e_.is_zero(spread)) output(light_key(k, kLightSpread), jit::Type::F, spread);
     }
     if (sources_.empty())
         record(0, zero(e_, BaseType::Vector), globals_.read(Global::Cl), globals_.read(Global::Ol),

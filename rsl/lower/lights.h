@@ -71,6 +71,7 @@ class LightShader {
     struct Source {
         const Stmt* stmt;
         int L, Cl, Ol, lit;        // slots
+        int spread;                // of solar
         Lowered left_Cl, left_Ol;  // as the statement left the globals
     };
 

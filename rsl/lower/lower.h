@@ -55,6 +55,10 @@ struct LoweredShader {
     jit::Module module;
     std::vector<LightStatement> light_statements;  // light shaders; outputs light:k:*
     std::vector<std::string> categories;  // category strings of illuminance, for kLightCategories
+    // Which lights its loops look at: bits of `categories` that some loop asks to be set, or not
+    // to be; all lights with a direction; ambient ones. Others' kernels need not run.
+    uint32_t lit_categories = 0, lit_without = 0;
+    bool lit_by_all = false, lit_by_ambient = false;
     std::vector<std::string> light_messages;  // names read by lightsource(), columns in this order
     std::vector<int> light_message_components;
     std::vector<Type> light_message_types;  // an array's elements follow one another

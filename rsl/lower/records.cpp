@@ -97,7 +97,10 @@ Value LightRecords::category_matches(Value set, Value record, Value category, Lo
         context_.error(Code::RSL_STRING_NOT_CONSTANT, where, "illuminance");
         return b_.m(true);
     }
-    if (text->empty()) return b_.m(true);
+    if (text->empty()) {
+        context_.out.lit_by_all = true;
+        return b_.m(true);
+    }
     bool without = text->front() == '-' && text->find_first_of("|&") == std::string::npos;
     std::string name = text->substr(without ? 1 : 0);
     auto found = std::find(context_.out.categories.begin(), context_.out.categories.end(), name);
@@ -105,6 +108,7 @@ Value LightRecords::category_matches(Value set, Value record, Value category, Lo
         context_.error(Code::RSL_TOO_MANY_CATEGORIES, where, 32);
     int bit = int(found - context_.out.categories.begin());
     if (found == context_.out.categories.end()) context_.out.categories.push_back(name);
+    (without ? context_.out.lit_without : context_.out.lit_categories) |= 1u << (bit & 31);
     Value bits = record_uniform(b_, set, record, kLightCategories, jit::Type::I);
     Value absent = b_.op(jit::Op::IEq, b_.iand(bits, b_.i(int32_t(1u << (bit & 31)))), b_.i(0));
     return without ? absent : b_.logical_not(absent);

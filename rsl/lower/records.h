@@ -44,6 +44,10 @@ class LightRecords {
     // Notes that a loop over the set looks at lights within 90 degrees of the axis alone; null: at
     // all lights.
     void look_about(Value set, const V3* axis);
+    // Notes that a loop looks at lights of any category: those with a direction, or ambient ones.
+    void look_at_all(bool ambient) {
+        (ambient ? context_.out.lit_by_ambient : context_.out.lit_by_all) = true;
+    }
     // Whether the record is of the category, a string expression's value.
     Value category_matches(Value set, Value record, Value category, Location where);
     // The current light's parameter where it has one, else `before`; *known says where.

@@ -55,10 +55,11 @@ std::string space_text(const KernelKey& key) {
 }
 
 std::string light_text(const KernelKey& key) {
-    const char* column = key.light_column() == kLightL    ? "L"
-                         : key.light_column() == kLightCl ? "Cl"
-                         : key.light_column() == kLightOl ? "Ol"
-                                                          : "lit";
+    const char* column = key.light_column() == kLightL     ? "L"
+                         : key.light_column() == kLightCl  ? "Cl"
+                         : key.light_column() == kLightOl  ? "Ol"
+                         : key.light_column() == kLightLit ? "lit"
+                                                           : "spread";
     return "light:" + std::to_string(key.layer) + ":" + column + suffix(key);
 }
 
@@ -89,9 +90,9 @@ KernelKey space_key(std::string_view space, bool to_current, int row, int column
 
 KernelKey light_key(size_t statement, LightColumn column, int component) {
     return {.kind = KeyKind::LightRecord,
-            .form = column == kLightL     ? ComponentForm::Triple
-                    : column == kLightLit ? ComponentForm::Single
-                                          : ComponentForm::Color,
+            .form = column == kLightL                             ? ComponentForm::Triple
+                    : column == kLightLit || column == kLightSpread ? ComponentForm::Single
+                                                                    : ComponentForm::Color,
             .component = uint8_t(component),
             .layer = uint32_t(statement),
             .name = column};

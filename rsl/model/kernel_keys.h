@@ -25,7 +25,8 @@
 // Kernel outputs: Ci.r.. Oi.r.. N.x.. P.x.. alpha (imagers) aov:NAME[.c]; of a light shader, for statement k:
 //   light:k:L.x..   from Ps to the light, as a record has it (RSL's L inside illuminate, reversed)
 //   light:k:Cl.r..  light:k:Ol.r..  light:k:lit (int, nonzero in the cone; else Cl and Ol are 0)
-//                   Triples that are 0 at all points have no outputs; nor has a lit that is 1.
+//   light:k:spread  the angle of solar's cone
+//                   What is 0 at all points has no outputs; nor has a lit that is 1.
 //   message:NAME[.c]  its parameters
 // An ambient light has statement 0 alone, with L = 0 and lit = 1. In a light P is the origin of its
 // "shader" space (no input of its own), N is Ns; on geometry (LowerOptions::area_light) P N Ng dPdu

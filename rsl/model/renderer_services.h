@@ -14,7 +14,16 @@ namespace kinora::rsl {
 // Columns of a light record, as RecordField reads them. L points from the surface to the light,
 // not normalised (solar: unit length). lit is an int. Messages the surface asks for follow; they
 // are 0 where the light has no such parameter.
-enum LightColumn { kLightL = 0, kLightCl = 3, kLightOl = 6, kLightLit = 9, kLightMessages = 10 };
+enum LightColumn {
+    kLightL = 0,
+    kLightCl = 3,
+    kLightOl = 6,
+    kLightLit = 9,
+    kLightMessages = 10,
+    // No column of a record, but an output of light kernels: the angle, radians, between the axis
+    // of solar and the side of the cone that light comes from.
+    kLightSpread = 255
+};
 
 // Uniforms of a light record, as RecordUniform reads them.
 enum LightUniform {

@@ -256,6 +256,8 @@ RefFlow Reference<Real>::illuminate(const Stmt& stmt, const Expr* position, cons
         L = normalize(vec(expr(*axis)));
     else
         L = Number(-1) * normalize(vec(global(Global::Ns)));
+    Item spread(BaseType::Float);
+    if (!position && axis) spread = expr(*angle);
     if (position && axis) {
         Vec<Real> a = vec(expr(*axis));
         if (!in_cone(L, &a, expr(*angle).c[0])) return {};
@@ -266,7 +268,7 @@ RefFlow Reference<Real>::illuminate(const Stmt& stmt, const Expr* position, cons
     in_solar = outer_solar;
     for (Source& source : sources_)
         if (source.stmt == &stmt)
-            source = {&stmt, global(Global::L), global(Global::Cl), global(Global::Ol), true};
+            source = {&stmt, global(Global::L), global(Global::Cl), global(Global::Ol), true, spread};
     return flow;
 }
 

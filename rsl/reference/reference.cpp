@@ -391,6 +391,7 @@ void Reference<Real>::light_outputs() {
         output(light_key(k, kLightCl), sources_[k].Cl);
         output(light_key(k, kLightOl), sources_[k].Ol);
         result.values[text(light_key(k, kLightLit))] = sources_[k].lit;
+        output(light_key(k, kLightSpread), sources_[k].spread);
     }
 }
 

@@ -300,6 +300,7 @@ class Reference {
         const Stmt* stmt;
         Item L, Cl, Ol;
         bool lit;
+        Item spread{BaseType::Float};
     };
     std::vector<Source> sources_;
     Vec<Real> Ci_{}, Oi_{};

@@ -36,6 +36,7 @@ constexpr struct {
 } kSections[] = {
     {"added", explain_added},     {"meshes", explain_meshes}, {"animation", explain_animation},
     {"shaders", explain_shaders}, {"lights", explain_lights}, {"textures", explain_textures},
+    {"passes", explain_passes},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "runtime/explain/explain_p.h"
 #include "runtime/vertices/vertex_work.h"
+#include "skin/narrowest.h"
 
 namespace kinora {
 
@@ -18,6 +19,21 @@ std::string shown_shape(const Scene& scene, const Shape& shape) {
     if (mesh.definition == kNone) return fmt::format("a mesh on {}", node);
     const MeshDefinition& definition = scene.description->meshes[mesh.definition];
     return fmt::format("{} on {}", id_or_name(definition.id, definition.name), node);
+}
+
+// What linear blending takes from the limbs of a pose. Before a frame no pose is known.
+void explain_blending(const Scene& scene, const Shape& shape, const std::string& subject,
+                      ExplainedRows& rows) {
+    if (shape.skin == kNone || scene.first_frame) return;
+    if (!shape.dual_palette.empty()) {
+        rows.add(subject, "rotations are blended: a twist keeps its radius", "--skin dual");
+        return;
+    }
+    const double left = skin::narrowest(shape.skin_mesh, shape.palette);
+    rows.add(subject,
+             fmt::format("matrices are blended: where it is narrowed most, {:.3g} of the radius is left "
+                         "in the last frame", left),
+             "COLLADA means it so; --skin dual keeps the radius");
 }
 
 std::string why_it_deforms(const Scene& scene, const Shape& shape) {
@@ -50,6 +66,7 @@ void explain_meshes(const Scene& scene, ExplainedRows& rows) {
             case raytrace::GeometryKind::Deforming:
                 rows.add(subject, "deforms: vertices and tree are brought up to date each frame",
                          why_it_deforms(scene, shape));
+                explain_blending(scene, shape, subject, rows);
                 break;
             case raytrace::GeometryKind::Instanced:
                 if (moves)

@@ -1,4 +1,4 @@
-// runtime/explain/explain_shaders.cpp: what each kernel computes and reads, lights and textures.
+// runtime/explain/explain_shaders.cpp: what each kernel computes and reads, and textures.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -96,34 +96,6 @@ void explain_shaders(const Scene& scene, ExplainedRows& rows) {
     if (unworn)
         rows.leave_out(fmt::format("{} materials", unworn), "never compiled",
                        "no mesh that is shown wears them");
-}
-
-void explain_lights(const Scene& scene, ExplainedRows& rows) {
-    for (const LightSource& source : scene.lights) {
-        const LightDefinition& light = scene.description->lights[source.definition];
-        const std::string name = light.id.empty() ? light.name : light.id;
-        const std::string subject = fmt::format("{} on {}", name, shown_node(scene, source.node));
-        if (light.ambient) {
-            rows.add(subject, "ambient: added at each point", "");
-            rows.leave_out(subject, "no shadow rays", "ambient light has no direction");
-            continue;
-        }
-        rows.add(subject,
-                 source.surface != kNone ? "an area light, by samples" : "one direction a point",
-                 fmt::format("reaches all {} surfaces", scene.surfaces.size()));
-        bool shadows = scene.options.shadows == ShadowMode::Auto && light.shadows.value_or(true);
-        if (!shadows)
-            rows.leave_out(
-                subject, "no automatic shadow rays",
-                scene.options.shadows == ShadowMode::Auto ? "the light says so" : "--shadows");
-    }
-    size_t unplaced = 0;
-    std::set<uint32_t> placed;
-    for (const LightSource& source : scene.lights) placed.insert(source.definition);
-    unplaced = scene.description->lights.size() - placed.size();
-    if (unplaced)
-        rows.leave_out(fmt::format("{} lights", unplaced), "never run",
-                       "no node that is shown has them, or --lights left them out");
 }
 
 void explain_textures(const Scene& scene, ExplainedRows& rows) {

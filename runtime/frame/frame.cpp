@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/frame/report_p.h"
@@ -48,12 +49,12 @@ void prepare_planes(const Scene& scene, raytrace::Film& film) {
     }
 }
 
-// The picture without the imager.
-bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& film,
-                 raytrace::IntegratorCounters& counters, const raytrace::Progress* progress) {
+void begin_shading(Scene& scene, const FrameSettings& settings, raytrace::Film& film) {
     prepare_planes(scene, film);
+    if (film.is_band && settings.band_rows == 0) film.resize(scene.view.width, scene.view.height);
     scene.shading->stop_by(settings.stop);
     scene.shading->show(settings.insight);
+<<<<<<< HEAD
     const ShadingInsight& insight = settings.insight;
     if (insight.costs) insight.costs->start(scene.view.width, scene.view.height);
     if (insight.first)
@@ -62,6 +63,16 @@ bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& fi
         StageScope stage(Stage::Kernels);
         scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
     }
+=======
+    if (settings.insight.costs) settings.insight.costs->start(scene.view.width, scene.view.height);
+    StageScope stage(Stage::Kernels);
+    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
+}
+
+// What the film holds of the picture, without the imager.
+bool trace_film(Scene& scene, const FrameSettings& settings, raytrace::Film& film,
+                raytrace::IntegratorCounters& counters, const raytrace::Progress* progress) {
+>>>>>>> 99d29f75ae0fbebeda0f14c2bbbe8c5199a4b4f1
     raytrace::IntegratorSettings integrator = settings.integrator;
     float gain = float(settings.gain);
     if (integrator.background) *integrator.background /= gain;  // it is no part of the scene
@@ -72,6 +83,39 @@ bool trace_frame(Scene& scene, const FrameSettings& settings, raytrace::Film& fi
     if (gain != 1)
         for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);
     return whole;
+}
+
+// The same with the imager, which adds to `bad` the pixels that it left not finite.
+bool make_film(Scene& scene, const FrameSettings& settings, raytrace::Film& film,
+               raytrace::IntegratorCounters& counters, size_t& bad,
+               const raytrace::Progress* progress) {
+    if (!trace_film(scene, settings, film, counters, progress)) return false;
+    if (scene.imager == kNone) return true;
+    StageScope stage(Stage::Imager);
+    const size_t found = scene.shading->run_imager(film, settings.integrator.nan);
+    film.non_finite += found;
+    bad += found;
+    return !scene.shading->stopped();  // its kernels end early too
+}
+
+// Band by band, each handed on before the next one takes its memory.
+bool make_bands(Scene& scene, const FrameSettings& settings, raytrace::Film& film,
+                raytrace::IntegratorCounters& counters, size_t& bad,
+                const raytrace::Progress* progress) {
+    CHECK_EQ(settings.band_rows % settings.integrator.tile, 0);
+    const int height = scene.view.height, bands = (height + settings.band_rows - 1) / settings.band_rows;
+    for (int band = 0; band < bands; ++band) {
+        const int first = band * settings.band_rows;
+        film.hold_band(scene.view.width, first, std::min(settings.band_rows, height - first));
+        auto counted = [&](int done, int total) {
+            return (*progress)(band * total + done, bands * total);
+        };
+        raytrace::Progress of_band(counted);
+        if (!make_film(scene, settings, film, counters, bad, progress ? &of_band : nullptr) ||
+            !settings.on_band(film))
+            return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -98,7 +142,7 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
             settings.most_dice_error > 0 && stats.dice_error > settings.most_dice_error;
         // What changed stays marked, so that the next frame moves it.
         if (stats.too_coarse) return false;
-        stats.displace = deform(scene);
+        stats.displace = deform(scene, &stats.vertices);
         if (scene.first_frame) find_moving_parts(scene);
         for (uint32_t s : scene.moving.shapes)
             if (Shape& shape = scene.shapes[s]; shape.vertex_work)
@@ -127,15 +171,12 @@ bool render_frame(Scene& scene, double time, const FrameSettings& settings, rayt
     FrameTimer timer(stats);
     if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
     raytrace::IntegratorCounters counters;
-    bool whole = trace_frame(scene, settings, film, counters, progress);
+    begin_shading(scene, settings, film);
+    size_t bad = 0;
+    auto make = settings.band_rows > 0 ? make_bands : make_film;
+    bool whole = make(scene, settings, film, counters, bad, progress);
     timer.tiles = counters.stages;
-    if (whole && scene.imager != kNone) {
-        StageScope stage(Stage::Imager);
-        size_t bad = scene.shading->run_imager(film, settings.integrator.nan);
-        film.non_finite += bad;
-        report_imager(scene, bad, stats, diagnostics);
-        whole = !scene.shading->stopped();  // its kernels end early too
-    }
+    if (bad) report_imager(scene, bad, stats, diagnostics);
     ShadingCounters shading = scene.shading->end_frame(diagnostics, whole);
     report_shading(scene, shading, counters, settings.integrator, stats, diagnostics);
     return whole;
@@ -146,7 +187,8 @@ bool render_trial(Scene& scene, double time, const FrameSettings& settings, rayt
     FrameStats stats;
     if (!pose_frame(scene, time, settings, stats, diagnostics)) return false;
     raytrace::IntegratorCounters counters;
-    bool whole = trace_frame(scene, settings, film, counters, nullptr);
+    begin_shading(scene, settings, film);
+    bool whole = trace_film(scene, settings, film, counters, nullptr);
     ShadingCounters counted = scene.shading->drop_frame(diagnostics);
     if (shading) *shading = counted;
     return whole;

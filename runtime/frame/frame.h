@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <functional>
 
 #include "raytrace/film.h"
 #include "runtime/base/stage_clock.h"
@@ -25,6 +26,8 @@ struct FrameStats {
     raytrace::TraceCounters shader_rays;       // and those of lights and shaders
     uint64_t shading_points = 0;
     uint64_t light_points = 0;  // of the kernels of lights
+    uint64_t vertices = 0;      // of morphs, skins and displacements that were moved
+    uint64_t columns = 0;       // floats gathered for kernels
     uint64_t non_finite = 0;
     int refits = 0, rebuilds = 0;
     size_t rows_compared = 0;  // of the ray tracer, with those of the frame before
@@ -42,6 +45,11 @@ struct FrameSettings {
     const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
     const PlacedCamera* camera = nullptr;    // instead of the scene's
     ShadingInsight insight = {};             // its costs are started by the frame
+    // Not 0: the film holds so many rows at a time, a multiple of the integrator's tile, and
+    // `on_band` gets each band from the top; false from it stops the frame. The picture has the
+    // same bits.
+    int band_rows = 0;
+    std::function<bool(const raytrace::Film& band)> on_band = {};
     raytrace::IntegratorSettings integrator;
 };
 

@@ -138,6 +138,7 @@ void report_shading(Scene& scene, const ShadingCounters& shading,
                  shading.trace.shadow_rays;
     stats.shading_points = shading.points;
     stats.light_points = shading.light_points;
+    stats.columns = shading.columns;
     stats.non_finite += counters.non_finite;
     if (counters.non_finite == 0) return;
     uint32_t row = counters.non_finite_geometry;  // kNone: where there is no surface

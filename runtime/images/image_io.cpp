@@ -1,14 +1,10 @@
-// runtime/images/image_io.cpp: PNG by libpng, EXR by OpenEXR, names by rename(2).
+// runtime/images/image_io.cpp: pictures to 8 bits, names of files, PNG and EXR back into memory.
 #include "runtime/images/image_io.h"
 
 #include <fcntl.h>
 #include <png.h>
 #include <unistd.h>
 
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
 
@@ -25,6 +21,8 @@
 
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/images/picture_file.h"
+#include "runtime/images/picture_rows_p.h"
 
 namespace kinora {
 
@@ -39,16 +37,7 @@ uint8_t quantise(float x) {
     return uint8_t(std::min(x, 1.0f) * 255.0f + 0.5f);
 }
 
-using File = OpenFile;
-
-// Everything written so far is on the disk, or the error text.
-std::string sync_file(std::FILE* file, int& number) {
-    bool ok = !std::ferror(file) && std::fflush(file) == 0 && fsync(fileno(file)) == 0;
-    if (!ok) number = errno ? errno : EIO;
-    return ok ? "" : std::strerror(number);
-}
-
-// A PNG writer or reader with what must outlive its longjmps.
+// A PNG reader with what must outlive its longjmps.
 struct PngError {
     int number = 0;
     std::string text;
@@ -61,165 +50,7 @@ void on_png_error(png_structp png, png_const_charp text) {
 }
 void on_png_warning(png_structp, png_const_charp) {}
 
-// libpng's part, without objects whose destructors a longjmp would skip.
-bool png_write_rows(png_structp png, png_infop info, std::FILE* file, const Image8& image,
-                    png_text* texts, int text_count) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_init_io(png, file);
-    png_set_compression_level(png, 3);
-    png_set_IHDR(png, info, png_uint_32(image.width), png_uint_32(image.height), 8,
-                 PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
-    png_set_text(png, info, texts, text_count);
-    png_write_info(png, info);
-    for (int y = 0; y < image.height; ++y)
-        png_write_row(png, &image.rgba[size_t(y) * size_t(image.width) * 4]);
-    png_write_end(png, info);
-    return true;
-}
-
-std::string write_png_file(const std::string& path, const Image8& image, const ImageTexts& texts,
-                           int& number) {
-    errno = 0;
-    File file(std::fopen(path.c_str(), "wb"));
-    if (!file) {
-        number = errno;
-        return std::strerror(errno);
-    }
-    PngError error;
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error, on_png_warning);
-    png_infop info = png_create_info_struct(png);
-    std::vector<png_text> png_texts;
-    for (const auto& [key, value] : texts) {
-        png_text text{};
-        text.compression = PNG_TEXT_COMPRESSION_NONE;
-        text.key = const_cast<char*>(key.c_str());
-        text.text = const_cast<char*>(value.c_str());
-        png_texts.push_back(text);
-    }
-    bool ok = png_write_rows(png, info, file.get(), image, png_texts.data(), int(png_texts.size()));
-    png_destroy_write_struct(&png, &info);
-    number = error.number;
-    if (!ok) return error.text;
-    return sync_file(file.get(), number);
-}
-
-// OpenEXR's own file stream closes without a word when the last bytes cannot be written; errors of
-// this one stay in the FILE until sync_file asks for them.
-class ExrStream : public Imf::OStream {
-  public:
-    ExrStream(const std::string& path, std::FILE* file) : OStream(path.c_str()), file_(file) {}
-    void write(const char bytes[], int count) override {
-        if (std::fwrite(bytes, 1, size_t(count), file_) != size_t(count))
-            throw std::runtime_error("write failed");
-    }
-    uint64_t tellp() override { return uint64_t(std::ftell(file_)); }
-    void seekp(uint64_t position) override {
-        if (std::fseek(file_, long(position), SEEK_SET) != 0)
-            throw std::runtime_error("seek failed");
-    }
-
-  private:
-    std::FILE* file_;
-};
-
-// What is finite stays finite: the largest half is 65504.
-float to_half(float x) {
-    return std::isfinite(x) ? std::clamp(x, -65504.0f, 65504.0f) : x;
-}
-
-// RGBA as half, and each plane of the film as a float channel of its name.
-void write_channels(Imf::OStream& stream, Imf::Header& header, const raytrace::Film& film,
-                    std::vector<Imf::Rgba>& pixels) {
-    Imf::FrameBuffer buffer;
-    auto add = [&](const std::string& name, Imf::PixelType type, void* first, size_t step) {
-        header.channels().insert(name, Imf::Channel(type));
-        buffer.insert(name,
-                      Imf::Slice(type, static_cast<char*>(first), step, step * size_t(film.width)));
-    };
-    add("R", Imf::HALF, &pixels[0].r, sizeof(Imf::Rgba));
-    add("G", Imf::HALF, &pixels[0].g, sizeof(Imf::Rgba));
-    add("B", Imf::HALF, &pixels[0].b, sizeof(Imf::Rgba));
-    add("A", Imf::HALF, &pixels[0].a, sizeof(Imf::Rgba));
-    // A parameter that is called like a channel of the picture is R.V there.
-    auto channel = [&](const std::string& name) {
-        return header.channels().findChannel(name) ? name + ".V" : name;
-    };
-    for (const raytrace::AovPlane& plane : film.aovs)
-        if (plane.in_file)
-            add(channel(plane.name), Imf::FLOAT, const_cast<float*>(plane.values.data()),
-                sizeof(float));
-    Imf::OutputFile file(stream, header, 0);
-    file.setFrameBuffer(buffer);
-    file.writePixels(film.height);
-}
-
-std::string write_exr_file(const std::string& path, const raytrace::Film& film,
-                           const ImageTexts& texts, int& number) {
-    errno = 0;
-    File stream(std::fopen(path.c_str(), "wb"));
-    if (!stream) {
-        number = errno;
-        return std::strerror(errno);
-    }
-    try {
-        Imf::Header header(film.width, film.height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        for (const auto& [key, value] : texts) header.insert(key, Imf::StringAttribute(value));
-        std::vector<Imf::Rgba> pixels(film.rgba.size());
-        for (size_t i = 0; i < pixels.size(); ++i) {
-            const vec4& p = film.rgba[i];
-            pixels[i] = Imf::Rgba(to_half(p.x), to_half(p.y), to_half(p.z), to_half(p.w));
-        }
-        ExrStream exr(path, stream.get());
-        if (film.aovs.empty()) {
-            Imf::RgbaOutputFile file(exr, header, Imf::WRITE_RGBA, 0);
-            file.setFrameBuffer(pixels.data(), 1, size_t(film.width));
-            file.writePixels(film.height);
-        } else {
-            write_channels(exr, header, film, pixels);
-        }
-    } catch (const std::exception& error) {
-        number = errno;
-        return errno ? std::strerror(errno) : error.what();
-    }
-    return sync_file(stream.get(), number);
-}
-
 namespace fs = std::filesystem;
-
-// Where a picture is until it is whole: ".NAME.PID.tmp" beside it.
-std::string temporary_name(const fs::path& target) {
-    return (target.parent_path() /
-            ("." + target.filename().string() + "." + std::to_string(getpid()) + ".tmp"))
-        .string();
-}
-
-std::string make_folder(const fs::path& target, int& number) {
-    std::error_code code;
-    if (target.has_parent_path()) fs::create_directories(target.parent_path(), code);
-    number = code.value();
-    return code ? code.message() : "";
-}
-
-// Calls write(temporary name), then renames; the temporary file never stays.
-template <class Write>
-std::string write_whole(const std::string& path, int* errno_out, Write write) {
-    int number = 0;
-    std::string error = make_folder(path, number);
-    if (error.empty()) {
-        std::string temporary = temporary_name(path);
-        error = write(temporary, number);
-        if (error.empty() && std::rename(temporary.c_str(), path.c_str()) != 0) {
-            number = errno;
-            error = std::strerror(errno);
-        }
-        if (!error.empty()) unlink(temporary.c_str());
-    }
-    if (errno_out) *errno_out = number;
-    return error;
-}
 
 // The process of ".NAME.PID.tmp", 0 if the name is not so.
 pid_t writer_of(const std::string& name) {
@@ -257,14 +88,14 @@ bool is_image_path(const std::string& path) {
 
 std::string try_image_path(const std::string& path, int* errno_out) {
     int number = 0;
-    std::string error = make_folder(path, number);
+    std::string error;
+    const std::string temporary = temporary_picture(path, error, number);
     std::error_code ignored;
     if (error.empty() && fs::is_directory(path, ignored)) {
         number = EISDIR;
         error = std::strerror(EISDIR);
     }
     if (error.empty()) {
-        std::string temporary = temporary_name(path);
         int file = open(temporary.c_str(), O_WRONLY | O_CREAT, 0666);
         number = file < 0 ? errno : 0;
         if (file < 0) error = std::strerror(errno);
@@ -290,20 +121,30 @@ void remove_stale_images(const std::string& path) {
     }
 }
 
+namespace {
+
+// The whole picture at once.
+template <class Rows>
+std::string write_rows(PictureFile& file, std::string error, const Rows& rows, int* errno_out) {
+    if (error.empty()) error = file.write(rows);
+    if (error.empty()) error = file.end();
+    if (errno_out) *errno_out = file.number();
+    return error;
+}
+
+}  // namespace
+
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
                       int* errno_out) {
-    return write_whole(path, errno_out, [&](const std::string& temporary, int& number) {
-        return write_png_file(temporary, image, texts, number);
-    });
+    PictureFile file;
+    return write_rows(file, file.begin_png(path, image.width, image.height, texts), image,
+                      errno_out);
 }
 
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
                         const ImageTexts& texts, int* errno_out) {
-    if (has_extension(path, {".exr"}))
-        return write_whole(path, errno_out, [&](const std::string& temporary, int& number) {
-            return write_exr_file(temporary, film, texts, number);
-        });
-    return write_png(path, to_8_bit(film, encoding), texts, errno_out);
+    PictureFile file;
+    return write_rows(file, file.begin(path, film, film.height, encoding, texts), film, errno_out);
 }
 
 namespace {

@@ -64,6 +64,9 @@ class TexturePyramid {
     const HalfTexel* half_texels() const { return half_.data(); }
     const FloatTexel* float_texels() const { return floats_.data(); }
     float4 texel(int level, int x, int y) const;
+    size_t bytes() const {
+        return half_.size() * sizeof(HalfTexel) + floats_.size() * sizeof(FloatTexel);
+    }
 
     std::vector<TextureLevel> levels;
     int colors = 3;

@@ -157,4 +157,13 @@ int TextureStore::images() const {
     return int(images_.size());
 }
 
+uint64_t TextureStore::decoded_bytes() const {
+    uint64_t bytes = 0;
+    each_image([&](const StoredImage& image) {
+        bytes += image.pyramid.bytes();
+        for (const TexturePyramid& face : image.faces) bytes += face.bytes();
+    });
+    return bytes;
+}
+
 }  // namespace kinora

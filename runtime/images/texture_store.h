@@ -61,6 +61,8 @@ class TextureStore {
     void report(Diagnostics& diagnostics);
 
     int images() const;
+    // Of all texels that were read, coarser levels included.
+    uint64_t decoded_bytes() const;
     // Calls see(image) for each, by path; the store may not be asked meanwhile.
     void each_image(const std::function<void(const StoredImage&)>& see) const;
 

@@ -27,6 +27,8 @@ struct alignas(64) RayLanes {
     float P[3][kSixteen], error[3][kSixteen], Ng[3][kSixteen];
     // The hit, where rays turn back or go through, and the ray that saw it.
     float in_Ng[3][kSixteen], in[3][kSixteen], dDdx[3][kSixteen], dDdy[3][kSixteen];
+    // There, the change a pixel of the unit normal on the side that the ray came from; 0: flat.
+    float dNdx[3][kSixteen], dNdy[3][kSixteen];
     uint32_t carried[kCarried][kSixteen];
 };
 
@@ -61,8 +63,8 @@ struct RayKernels {
     // hits' space and no surface.
     void (*start)(const float* M, const float eye[3], const float at[3][kSixteen], RayLanes& lanes);
     // Where the samples' rays leave (Pharr, Jakob, Humphreys, Physically Based Rendering, 6.8.6),
-    // and how they spread: as the ray that saw the hit, mirrored or turned (Igehy, Tracing ray
-    // differentials, 1999), without what the surface's curvature adds.
+    // and how they spread (Igehy, Tracing ray differentials, 1999): as the ray that saw the hit,
+    // mirrored, with what the curvature of the mirror adds, or turned.
     void (*shoot)(const RayLanes& lanes, const RaySamples& samples, const RayWants& wants,
                   SixteenRays& rays);
 };

@@ -227,14 +227,17 @@ void origins(const RayLanes& lanes, const uint32_t* lane, SixteenRays& rays) {
     }
 }
 
-// A ray that goes back spreads as its mirror image, one that goes on as itself, turned. Lengths
-// stay, so flat mirrors and panes are exact.
+// A ray that goes on spreads as itself, turned: panes are exact. One that goes back spreads as its
+// mirror image and by the turn of the mirror's normal N (Igehy 1999, equations 15 and 16):
+// dR = dD - 2 ((dD . N) N + (D . N) dN + (D . dN) N), with N half-way between the two ways.
 void spreads(const RayLanes& lanes, const uint32_t* lane, SixteenRays& rays) {
-    alignas(64) Rows in, Ng, dx, dy;
+    alignas(64) Rows in, Ng, dx, dy, Nx, Ny;
     of_lanes(lanes.in, lane, in);
     of_lanes(lanes.in_Ng, lane, Ng);
     of_lanes(lanes.dDdx, lane, dx);
     of_lanes(lanes.dDdy, lane, dy);
+    of_lanes(lanes.dNdx, lane, Nx);
+    of_lanes(lanes.dNdy, lane, Ny);
     alignas(64) Rows out, axis;
     alignas(64) Row square, scale, turns, sees;
     KINORA_SIXTEEN {
@@ -265,22 +268,30 @@ void spreads(const RayLanes& lanes, const uint32_t* lane, SixteenRays& rays) {
         // Without an axis nothing is mirrored: what is divided by infinity is 0.
         square[i] = length2 > 1e-12f ? length2 : __builtin_inff();
     }
-    auto turn = [&](const Rows& d, Rows& to) {
+    auto turn = [&](const Rows& d, const Rows& dN, Rows& to) {
         KINORA_SIXTEEN {
             const float x = d[0][i], y = d[1][i], z = d[2][i];
             const float p = axis[0][i], q = axis[1][i], r = axis[2][i];
             const float twice = 2 * (in[0][i] * x + in[1][i] * y + in[2][i] * z);
             const float f = 2 * (p * x + q * y + r * z) / square[i];
             const float g = turns[i] * twice;
+            // The unit axis is N. Of rays that go on nothing is added.
+            const float unit = 2 * (1 - turns[i]) / __builtin_sqrtf(square[i]) * sees[i];
+            const float ix = in[0][i], iy = in[1][i], iz = in[2][i];
+            const float nx = dN[0][i], ny = dN[1][i], nz = dN[2][i];
+            const float in_N = (p * ix + q * iy + r * iz) * unit;
+            const float in_dN = (ix * nx + iy * ny + iz * nz) * unit;
             // Mirrored at in + out and then along out, `in` comes to lie on `out`.
             const bool seen = sees[i] > 0;
-            to[0][i] = either(seen, ((x - p * f) + out[0][i] * g) * scale[i], 0);
-            to[1][i] = either(seen, ((y - q * f) + out[1][i] * g) * scale[i], 0);
-            to[2][i] = either(seen, ((z - r * f) + out[2][i] * g) * scale[i], 0);
+            const float tx = nx * in_N + p * in_dN, ty = ny * in_N + q * in_dN,
+                        tz = nz * in_N + r * in_dN;
+            to[0][i] = either(seen, (((x - p * f) + out[0][i] * g) - tx) * scale[i], 0);
+            to[1][i] = either(seen, (((y - q * f) + out[1][i] * g) - ty) * scale[i], 0);
+            to[2][i] = either(seen, (((z - r * f) + out[2][i] * g) - tz) * scale[i], 0);
         }
     };
-    turn(dx, rays.dDdx);
-    turn(dy, rays.dDdy);
+    turn(dx, Nx, rays.dDdx);
+    turn(dy, Ny, rays.dDdy);
 }
 
 void shoot(const RayLanes& lanes, const RaySamples& samples, const RayWants& wants,

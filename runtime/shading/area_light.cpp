@@ -30,6 +30,13 @@ vec2 on_triangle(float x, float y) {
 
 }  // namespace
 
+uint32_t light_samples(const Scene& scene, size_t light) {
+    const uint32_t own = scene.description->lights[scene.lights[light].definition].samples;
+    return scene.options.light_samples ? scene.options.light_samples
+           : own                       ? own
+                                       : kDefaultSamples;
+}
+
 AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings) : frame_(frame) {
     const Scene& scene = frame.scene;
     for (size_t l = 0; l < scene.lights.size(); ++l) {
@@ -39,10 +46,7 @@ AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings)
         light = std::make_unique<AreaLight>();
         light->surface = source.surface;
         if (!bindings.directed(l)) continue;
-        uint32_t own = scene.description->lights[source.definition].samples;
-        light->samples = scene.options.light_samples ? scene.options.light_samples
-                         : own                       ? own
-                                                     : kDefaultSamples;
+        light->samples = light_samples(scene, l);
     }
 }
 

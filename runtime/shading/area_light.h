@@ -48,6 +48,9 @@ struct AreaLight {
     bool has_area() const { return !below.empty() && below.back() > 0; }
 };
 
+// Samples of lights that have an extent: of those on geometry and of solar with an angle.
+uint32_t light_samples(const Scene& scene, size_t light);
+
 class AreaLights {
   public:
     AreaLights(const ShadingFrame& frame, const LightBindings& bindings);

@@ -345,7 +345,7 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
         add_ray(rays, grid, start, dir, lanes.number(Row::Maxdist, lane),
                 lanes.number(Row::Bias, lane), raytrace::hash(lanes.seed(lane), k),
                 uint32_t(waiting - 1), counts.share[lane]);
-        spread_ray(rays, *start.hits, start.hit);
+        spread_ray(rays, grid, *start.hits, start.hit);
     };
     for (int lane = 0; lane < jit::kMaxLanes; ++lane)
         for (int k = counts.samples[lane]; k < counts.most; ++k)

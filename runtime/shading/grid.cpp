@@ -499,6 +499,9 @@ class HitSource : public PointSource {
 }  // namespace
 
 void gather(Grid& grid) {
+    const auto wanted = std::count_if(grid.columns.begin(), grid.columns.end(),
+                                      [](const float* column) { return column != nullptr; });
+    grid.memory.counters.columns += grid.count() * uint64_t(wanted);
     HitSource source(grid, grid.frame.camera_from_accel, grid.frame.eye);
     fill_columns(source, {grid.count(), grid.columns});
 }

@@ -20,7 +20,7 @@ namespace kinora {
 namespace {
 
 // Services take the pixel and position of a point from its hit: here there is a pixel only.
-raytrace::HitBatch no_hits(size_t first, size_t count, int width, Arena& arena) {
+raytrace::HitBatch no_hits(const raytrace::Film& film, size_t first, size_t count, Arena& arena) {
     size_t rows = padded(count);
     std::span<float> zeros = arena.allocate_span<float>(rows);
     std::fill(zeros.begin(), zeros.end(), 0.0f);
@@ -31,8 +31,8 @@ raytrace::HitBatch no_hits(size_t first, size_t count, int width, Arena& arena) 
     std::span<uint32_t> nought = arena.allocate_span<uint32_t>(rows);
     for (size_t i = 0; i < rows; ++i) {
         size_t pixel = first + std::min(i, count - 1);
-        x[i] = uint32_t(pixel % size_t(width));
-        y[i] = uint32_t(pixel / size_t(width));
+        x[i] = uint32_t(pixel % size_t(film.width));
+        y[i] = uint32_t(pixel / size_t(film.width)) + uint32_t(film.top);
         nought[i] = 0;
     }
     raytrace::HitBatch hits;
@@ -104,7 +104,7 @@ size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
     ThreadMemory& memory = *threads_[size_t(thread_index())];
     Arena& arena = memory.arena;
     Arena::Mark mark = arena.mark();
-    raytrace::HitBatch hits = no_hits(first, count, film.width, arena);
+    raytrace::HitBatch hits = no_hits(film, first, count, arena);
     std::span<uint32_t> points = arena.allocate_span<uint32_t>(count);
     for (uint32_t i = 0; i < count; ++i) points[i] = i;
     Grid grid(frame_, memory, hits, points, &look);

@@ -94,6 +94,7 @@ void LaneRays::enter_hits() {
         enter([k](const Hits& h) { return h.dPdx[k]; }, lane_.carried[kdOdx + k]);
         enter([k](const Hits& h) { return h.dPdy[k]; }, lane_.carried[kdOdy + k]);
     }
+    if (wants_.spreads) enter_bends();
     enter([](const Hits& h) { return h.pixel_x; }, lane_.carried[kPixelX]);
     enter([](const Hits& h) { return h.pixel_y; }, lane_.carried[kPixelY]);
     for (int lane = 0; lane < kSixteen; ++lane) {
@@ -101,6 +102,16 @@ void LaneRays::enter_hits() {
         const uint32_t ray = hits_[lane]->ray[hit_[lane]];
         set_weight(lane, rays ? rays->weight[ray] : 1.0f);
         lane_.carried[kMedium][lane] = rays ? rays->medium[ray] : 0;
+    }
+}
+
+void LaneRays::enter_bends() {
+    SmoothSurface surface(grid_.scene);
+    for (int lane = 0; lane < kSixteen; ++lane) {
+        vec3 x(0.0f), y(0.0f);
+        const bool asks = lanes_.asks(lane) && on_surface(grid_);
+        if (asks) surface.bend_at(*hits_[lane], hit_[lane], x, y);
+        for (int k = 0; k < 3; ++k) lane_.dNdx[k][lane] = x[k], lane_.dNdy[k][lane] = y[k];
     }
 }
 

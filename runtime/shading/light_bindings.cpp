@@ -57,6 +57,7 @@ LightOutputs statement_of(const ShaderInstance& look, size_t index,
         statement.Ol[k] = find(rsl::kLightOl, k);
     }
     statement.lit = find(rsl::kLightLit, 0);
+    statement.spread = find(rsl::kLightSpread, 0);
     statement.casts_shadow = from.casts_shadow;
     if (definition.shadows) statement.casts_shadow = *definition.shadows;
     if (mode == ShadowMode::Explicit) statement.casts_shadow = definition.shadows.value_or(false);
@@ -86,12 +87,22 @@ int find_component(const jit::Kernel& kernel, const std::string& name, int eleme
     return output >= 0 ? output : find(ComponentForm::Color);
 }
 
+// Whether some loop of the surface asks for lights of these categories' bits.
+bool asks_for(const rsl::LoweredShader& surface, const rsl::LoweredShader& light, uint32_t bits) {
+    bool ambient = false, directed = false;
+    for (const rsl::LightStatement& statement : light.light_statements)
+        (statement.kind == rsl::kLightAmbient ? ambient : directed) = true;
+    const bool named = (bits & surface.lit_categories) != 0 || (~bits & surface.lit_without) != 0;
+    return (ambient && surface.lit_by_ambient) || (directed && (surface.lit_by_all || named));
+}
+
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.
 LightBinding binding_of(const ShaderInstance& surface, const ShaderInstance& light) {
     LightBinding binding;
     std::string own = categories_of(light);
     for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
         binding.categories |= int32_t(has_category(own, surface.lowered.categories[c])) << c;
+    binding.seen = asks_for(surface.lowered, light.lowered, uint32_t(binding.categories));
     binding.nondiffuse = number_of(light, "__nondiffuse");
     binding.nonspecular = number_of(light, "__nonspecular");
     const jit::Kernel& kernel = light.full.kernel();

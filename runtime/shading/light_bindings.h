@@ -16,6 +16,7 @@ struct LightOutputs {
     rsl::LightKind kind = rsl::kLightAmbient;
     bool casts_shadow = false;
     int L[3], Cl[3], Ol[3], lit = -1;
+    int spread = -1;  // of solar with an angle: light comes from a cone
 };
 
 // A number of a light that may be animated: in Scene::values, or fixed (`value` is kNone).
@@ -28,6 +29,7 @@ struct LightNumber {
 // What one surface look reads of one light.
 struct LightBinding {
     int32_t categories = 0;
+    bool seen = true;  // some loop of the look asks for it
     LightNumber nondiffuse, nonspecular;
     std::vector<int> messages;   // output columns
     std::vector<int32_t> known;  // per message: the light has that parameter

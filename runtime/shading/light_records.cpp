@@ -12,6 +12,7 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/columns/sixteen_points.h"
 #include "runtime/description/findings.h"
+#include "runtime/lights/cone_samples.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/kernels/columns.h"
 #include "runtime/shading/scene_host.h"
@@ -92,11 +93,18 @@ uint32_t bits(float x) {
 LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     : frame_(frame), kernels_(kernels), bindings_(frame.scene), area_lights_(frame, bindings_) {
     for (size_t l = 0; l < frame.scene.lights.size(); ++l) {
-        const AreaLight* area = area_lights_.find(l);
-        record_count_ += bindings_.statements(l).size() * (area ? area->samples : 1);
-        need_rng_ |=
-            area || frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
+        for (const LightOutputs& statement : bindings_.statements(l)) {
+            record_count_ += samples_of(l, statement);
+            need_rng_ |= statement.spread >= 0;
+        }
+        need_rng_ |= area_lights_.find(l) ||
+                     frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
     }
+}
+
+size_t LightRecords::samples_of(size_t light, const LightOutputs& statement) const {
+    if (const AreaLight* area = area_lights_.find(light)) return area->samples;
+    return statement.spread >= 0 ? light_samples(frame_.scene, light) : 1;
 }
 
 void LightRecords::begin_frame() {
@@ -108,8 +116,8 @@ void LightRecords::begin_frame() {
 std::vector<size_t> LightRecords::light_of_records() const {
     std::vector<size_t> lights;
     for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
-        const AreaLight* area = area_lights_.find(l);
-        lights.insert(lights.end(), bindings_.statements(l).size() * (area ? area->samples : 1), l);
+        for (const LightOutputs& statement : bindings_.statements(l))
+            lights.insert(lights.end(), samples_of(l, statement), l);
     }
     return lights;
 }
@@ -182,7 +190,8 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
     const Sphere lit = sphere_about(at.P, at.count);
     for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
         const uint32_t only = frame_.insight.only_light;
-        if ((only != kNone && l != only) || !reaches(reaches_[l], lit))
+        if ((only != kNone && l != only) || !bindings_.binding(grid.look->index, l).seen ||
+            !reaches(reaches_[l], lit))
             dark_records(making, l);
         else
             area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
@@ -192,14 +201,21 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
 }
 
 void LightRecords::dark_records(Making& making, size_t l) const {
-    Arena& arena = making.grid.memory.arena;
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    for (const LightOutputs& statement : bindings_.statements(l))
+        dark_records(making, statement, binding,
+                     making.record_count + samples_of(l, statement));
+}
+
+void LightRecords::dark_records(Making& making, const LightOutputs& statement,
+                                const LightBinding& binding, size_t end) const {
+    Arena& arena = making.grid.memory.arena;
     std::span<const float*> columns =
         arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), making.at.zeros - making.at.first);
-    for (const LightOutputs& statement : bindings_.statements(l))
-        making.records[making.record_count++] = {
-            columns.data(), record_uniforms(frame_.scene, arena, statement, binding)};
+    const float* uniforms = record_uniforms(frame_.scene, arena, statement, binding);
+    while (making.record_count < end)
+        making.records[making.record_count++] = {columns.data(), uniforms};
 }
 
 void LightRecords::shadow(const Making& making) const {
@@ -248,9 +264,45 @@ void LightRecords::plain_records(Making& making, size_t l) {
     lit.columns = light_columns(look, frame_.scene, light, at, arena);
     std::span<float*> out = kernels_.run(look.full, lit);
     grid.memory.counters.light_points += at.count;
-    const LightBinding& binding = bindings_.binding(grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))
-        make_record(making, statement, binding, out, nullptr);
+        if (statement.spread >= 0)
+            cone_records(making, l, statement, out);
+        else
+            make_record(making, statement, bindings_.binding(grid.look->index, l), out, false,
+                        nullptr);
+}
+
+void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& statement,
+                                std::span<float* const> out) const {
+    const LightPoints& at = making.at;
+    Arena& arena = making.grid.memory.arena;
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    const size_t samples = samples_of(l, statement), end = making.record_count + samples;
+    const float* angle = out[size_t(statement.spread)];
+    const bool wide = statement.L[0] >= 0 && std::any_of(angle, angle + at.count,
+                                                         [](float a) { return a != 0; });
+    if (!wide) make_record(making, statement, binding, out, false, nullptr);
+    std::span<float*> rows = arena.allocate_span<float*>(out.size());
+    SkyCones cones{at.count, {}, angle, at.rng, raytrace::hash(uint32_t(l), frame_.seed)};
+    for (size_t c = 0; wide && c < 3; ++c) cones.axis[c] = out[size_t(statement.L[c])];
+    for (uint32_t first = 0; wide && first < samples; first += ConeSamples::kAtOnce) {
+        ConeSamples cone(cones, padded(at.count), arena);
+        cone.find(first);
+        for (size_t s = 0; s < std::min<size_t>(ConeSamples::kAtOnce, samples - first); ++s) {
+            std::copy(out.begin(), out.end(), rows.begin());
+            for (size_t c = 0; c < 3; ++c) {
+                rows[size_t(statement.L[c])] = cone.row(s, c);
+                if (statement.Cl[c] < 0) continue;
+                float* const share = arena.allocate_span<float>(padded(at.count)).data();
+                const float* whole = out[size_t(statement.Cl[c])];
+                for (size_t i = 0; i < padded(at.count); ++i) share[i] = whole[i] / float(samples);
+                rows[size_t(statement.Cl[c])] = share;
+            }
+            make_record(making, statement, binding, rows, true, nullptr);
+        }
+    }
+    // Records were counted before: those without light are dark.
+    if (making.record_count < end) dark_records(making, statement, binding, end);
 }
 
 void LightRecords::area_records(Making& making, size_t l) {
@@ -298,14 +350,14 @@ void LightRecords::area_records(Making& making, size_t l) {
                     float& Cl = out[size_t(output)][i];
                     Cl = own || !light.has_area() ? 0.0f : Cl / float(light.samples);
                 }
-            make_record(making, statement, binding, out, &samples);
+            make_record(making, statement, binding, out, true, &samples);
         }
     }
 }
 
 void LightRecords::make_record(Making& making, const LightOutputs& statement,
                                const LightBinding& binding, std::span<float* const> out,
-                               const LightSamples* samples) const {
+                               bool sample, const LightSamples* samples) const {
     const LightPoints& at = making.at;
     Arena& arena = making.grid.memory.arena;
     std::span<const float*> columns =
@@ -335,7 +387,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
             sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
         }
         const bool shines = sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
-        if (shines && samples)
+        if (shines && sample)
             shadow_sample(making, sent);
         else
             making.sent_count += shines;

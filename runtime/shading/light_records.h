@@ -47,10 +47,19 @@ class LightRecords {
     // Run a light's kernel.
     void plain_records(Making& making, size_t light);
     void area_records(Making& making, size_t light);
+    // Records of solar with an angle: a sample of its cone each, with its share of the light.
+    void cone_records(Making& making, size_t light, const LightOutputs& statement,
+                      std::span<float* const> out) const;
+    // The most that a statement of the light makes at a time.
+    size_t samples_of(size_t light, const LightOutputs& statement) const;
     // Of a light that reaches none of the points.
     void dark_records(Making& making, size_t light) const;
+    // Up to record `end`.
+    void dark_records(Making& making, const LightOutputs& statement, const LightBinding& binding,
+                      size_t end) const;
+    // What is sent of it is shadowed at once where it is one `sample` of several.
     void make_record(Making& making, const LightOutputs& statement, const LightBinding& binding,
-                     std::span<float* const> out, const LightSamples* samples) const;
+                     std::span<float* const> out, bool sample, const LightSamples* samples) const;
     // Leaves in the colours what arrives. Of a light on geometry at once: its sample goes with it.
     void shadow(const Making& making) const;
     void shadow_sample(const Making& making, const SentLight& sent) const;

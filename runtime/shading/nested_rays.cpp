@@ -74,10 +74,11 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
     rays.slot[i] = slot;
 }
 
-// Igehy, Tracing ray differentials, 1999, without what the surface's curvature adds: a ray that
-// goes back spreads as its mirror image, one that goes on as itself, turned. Lengths stay, so flat
-// mirrors and panes are exact.
-void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32_t hit) {
+// Igehy, Tracing ray differentials, 1999: a ray that goes on spreads as itself, turned; one that
+// goes back spreads as its mirror image and by the turn of the mirror's normal. runtime/rays has
+// the formulas, for sixteen rays.
+void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitBatch& from,
+                uint32_t hit) {
     if (!rays.spreads) return;
     size_t i = rays.count - 1;
     vec3 in = triple(from.dir, hit), out = triple(rays.dir, i), Ng = triple(from.Ng, hit);
@@ -94,8 +95,19 @@ void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32
         vec3 result = back ? mirrored : mirrored + out * (2 * glm::dot(in, d));
         return result * (after / before);
     };
-    set_triple(rays.dDdx, i, turned(triple(from.dDdx, hit)));
-    set_triple(rays.dDdy, i, turned(triple(from.dDdy, hit)));
+    vec3 dx = turned(triple(from.dDdx, hit)), dy = turned(triple(from.dDdy, hit));
+    vec3 dNdx, dNdy;
+    if (back && square > 1e-12f && on_surface(grid) &&
+        SmoothSurface(grid.scene).bend_at(from, hit, dNdx, dNdy)) {
+        const vec3 N = axis / std::sqrt(square);
+        auto bent = [&](vec3 dN) {
+            return (dN * glm::dot(in, N) + N * glm::dot(in, dN)) * (2 * after);
+        };
+        dx -= bent(dNdx);
+        dy -= bent(dNdy);
+    }
+    set_triple(rays.dDdx, i, dx);
+    set_triple(rays.dDdy, i, dy);
 }
 
 namespace {

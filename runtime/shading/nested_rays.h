@@ -37,9 +37,10 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
              float tfar, float bias, uint32_t path, uint32_t slot, float share = 1);
 
-// Gives the ray added last the spread of the ray that saw `hit`, as far as directions go: without
-// it the footprint stays as wide as it is at `hit`.
-void spread_ray(raytrace::RayBatch& rays, const raytrace::HitBatch& from, uint32_t hit);
+// Gives the ray added last the spread of the ray that saw `hit`, as far as directions go, and what
+// a curved mirror adds: without it the footprint stays as wide as it is at `hit`.
+void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitBatch& from,
+                uint32_t hit);
 
 // The share of the eye's ray that each ray of a point's next call of so many samples has, which
 // keeps shaders that shoot several rays a hit from multiplying them without end (BMRT and PRMan
@@ -82,6 +83,16 @@ class SmoothSurface {
     // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
     // both accounts, where it is flat, and where the surface is hollow.
     vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
+<<<<<<< HEAD
+=======
+    // The same for those of sixteen rays that `lanes` has bits for: fills their `up`; the bits of
+    // those where it is not 0.
+    uint32_t ways_from(const raytrace::HitBatch& hits, const uint32_t* hit, uint32_t lanes,
+                       raytrace::LeavingRays& rays);
+    // How its unit normal on the side that the hit's ray came from turns over the hit's footprint,
+    // a pixel in x and in y. False where it is flat.
+    bool bend_at(const raytrace::HitBatch& hits, uint32_t hit, vec3& dNdx, vec3& dNdy);
+>>>>>>> 99d29f75ae0fbebeda0f14c2bbbe8c5199a4b4f1
 
   private:
     // What a row of the scene has for its normals.
@@ -217,6 +228,7 @@ class LaneRays {
     bool of_light() const;
     void find_hits(int P);
     void enter_hits();
+    void enter_bends();
     void enter_starts(int P);
     const float* arguments(int row) const;
     void aim();

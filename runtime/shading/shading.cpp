@@ -24,6 +24,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     points += o.points;
     light_points += o.light_points;
     opacity_points += o.opacity_points;
+    columns += o.columns;
     too_deep += o.too_deep;
     unlit += o.unlit;
     out_of_rays += o.out_of_rays;
@@ -111,6 +112,11 @@ bool reads_footprints(const ShaderInstance& look) {
 
 }  // namespace
 
+bool reads_footprints(const Scene& scene) {
+    return std::ranges::any_of(scene.shader_instances,
+                               [](const auto& look) { return reads_footprints(*look); });
+}
+
 void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     ShadingFrame& frame = objects_->frame;
     ThreadMemories& threads = objects_->threads;
@@ -122,10 +128,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     frame.split = uint32_t(frame.scene.options.split);
     while (threads.size() < size_t(thread_count()))
         threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
-    frame.footprints =
-        all_inputs || std::ranges::any_of(frame.scene.shader_instances, [](const auto& look) {
-            return kinora::reads_footprints(*look);
-        });
+    frame.footprints = all_inputs || kinora::reads_footprints(frame.scene);
     for (auto& thread : threads) {
         thread->counters = {};
         thread->footprints = frame.footprints;

@@ -10,6 +10,9 @@
 
 namespace kinora {
 
+// Whether some shader of the scene reads the size of what a pixel shows; else rays carry none.
+bool reads_footprints(const Scene& scene);
+
 // Wavefront shading (docs/decisions.md#lanes-and-wavefronts). One per scene; its memory is kept
 // from frame to frame.
 class Shading : public raytrace::SurfaceShading {

@@ -22,6 +22,7 @@ struct ShadingCounters {
     uint64_t points = 0;            // surface kernels
     uint64_t light_points = 0;      // light kernels
     uint64_t opacity_points = 0;    // opacity kernels
+    uint64_t columns = 0;           // floats gathered for kernels
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
     uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
     uint64_t out_of_rays = 0;       // points that asked for more rays than they may shoot

@@ -1,4 +1,5 @@
-// runtime/shading/smooth_surface.cpp: where rays to lights leave a smooth surface.
+// runtime/shading/smooth_surface.cpp: the surface that vertex normals describe: where rays to
+// lights leave it, and how it bends.
 //
 // P is laid on the planes that the normals of the triangle's corners are perpendicular to, where
 // these lie above it, and the three places are mixed by its barycentrics. The result lies on or
@@ -87,6 +88,43 @@ vec3 SmoothSurface::way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 
         if (height > kFlat * glm::length(to_corner)) way += (weight[k] * height) * up;
     }
     return way * amount;
+}
+
+bool SmoothSurface::bend_at(const raytrace::HitBatch& hits, uint32_t hit, vec3& dNdx, vec3& dNdy) {
+    const uint32_t row = hits.instance[hit];
+    if (row == kNone) return false;
+    if (row != row_.number) enter(row);
+    const uint32_t primitive = hits.primitive[hit];
+    const uint32_t* corner = corners(primitive);
+    if (!corner) return false;
+    vec3 n[3], at[3];
+    for (size_t k = 0; k < 3; ++k) n[k] = vec3(row_.normals[corner[k]]);
+    if (n[0] == n[1] && n[0] == n[2]) return false;
+    const uint32_t* vertex = &row_.triangles[3 * size_t(primitive)];
+    for (size_t k = 0; k < 3; ++k) {
+        n[k] = row_.normals_from_rest * n[k];
+        at[k] = row_.from_rest * (vec3(row_.positions[vertex[k]]) - vec3(row_.positions[vertex[0]]));
+    }
+    const float u = hits.u[hit], v = hits.v[hit];
+    const vec3 N = (1 - u - v) * n[0] + u * n[1] + v * n[2], Ng = triple(hits.Ng, hit);
+    const float length = glm::length(N);
+    // In double: squares of areas are no floats in scenes of micrometres.
+    const dvec3 e(at[1]), f(at[2]);
+    const double ee = glm::dot(e, e), ef = glm::dot(e, f), ff = glm::dot(f, f);
+    const double area = ee * ff - ef * ef;
+    if (!(length > 0 && area > 0)) return false;
+    const float side = (glm::dot(N, Ng) < 0) == (glm::dot(triple(hits.dir, hit), Ng) < 0) ? -1 : 1;
+    // Of the mixture over its length, with the share along N taken off.
+    auto along = [&](vec3 dP) {
+        const double pe = glm::dot(dvec3(dP), e), pf = glm::dot(dvec3(dP), f);
+        const float du = float((pe * ff - pf * ef) / area), dv = float((pf * ee - pe * ef) / area);
+        const vec3 d = du * (n[1] - n[0]) + dv * (n[2] - n[0]);
+        const vec3 turned = (d - N * (glm::dot(d, N) / (length * length))) * (side / length);
+        return glm::dot(turned, turned) < std::numeric_limits<float>::max() ? turned : vec3(0.0f);
+    };
+    dNdx = along(triple(hits.dPdx, hit));
+    dNdy = along(triple(hits.dPdy, hit));
+    return true;
 }
 
 bool is_way_free(const raytrace::Accel& accel, vec3 P, vec3 error, vec3 Ng, vec3 way,

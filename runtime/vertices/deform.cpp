@@ -82,12 +82,13 @@ void displace_skin(Scene& scene, Shape& shape, double& ms) {
                            scene.origin, shape.positions, shape.normals, shape.mirrored);
 }
 
-void deform_shape(Scene& scene, Shape& shape, double& displace_ms) {
+// Returns the vertices that it moved.
+size_t deform_shape(Scene& scene, Shape& shape, double& displace_ms) {
     const Mesh& mesh = scene.meshes[shape.mesh];
     bool morphed = morph_changed(scene, shape);
     if (morphed) morph(scene, shape);
     bool each_frame = shape.vertex_work && shape.vertex_work->each_frame;
-    if (!morphed && !each_frame && !scene.first_frame && !joints_moved(scene, shape)) return;
+    if (!morphed && !each_frame && !scene.first_frame && !joints_moved(scene, shape)) return 0;
     bool skinned = shape.skin != kNone;
     if (shape.vertex_work && !skinned && (morphed || each_frame || scene.first_frame))
         displace_mesh(scene, shape, displace_ms);
@@ -103,6 +104,7 @@ void deform_shape(Scene& scene, Shape& shape, double& displace_ms) {
     move_by_joints(shape, shape.skin_mesh, positions, normals, shape.positions, shape.normals);
     if (shape.vertex_work && skinned) displace_skin(scene, shape, displace_ms);
     ++shape.positions_version;
+    return shape.positions.size();
 }
 
 }  // namespace
@@ -170,17 +172,19 @@ void move_by_joints(const Shape& shape, const skin::SkinMesh& skin,
                           normals);
 }
 
-double deform(Scene& scene) {
+double deform(Scene& scene, uint64_t* vertices) {
     double displace_ms = 0;
+    uint64_t moved = 0;
     for_each_moving(scene, scene.shapes.size(), scene.moving.shapes, [&](uint32_t s) {
         Shape& shape = scene.shapes[s];
         if (shape.kind == raytrace::GeometryKind::Deforming)
-            deform_shape(scene, shape, displace_ms);
+            moved += deform_shape(scene, shape, displace_ms);
         if (shape.kind == raytrace::GeometryKind::Instanced && scene.nodes[shape.node].moved)
             update_world(scene, shape);
     });
     for_each_moving(scene, scene.surfaces.size(), scene.moving.surfaces,
                     [&](uint32_t s) { update_row(scene, s); });
+    if (vertices) *vertices = moved;
     return displace_ms;
 }
 

@@ -16,8 +16,8 @@ void pose(Scene& scene);
 
 // Morphs, skins, transformations, displacements: only shapes whose joints, weights or node changed
 // or whose shaders run at each frame. Also brings the ray tracer's rows up to date (versions,
-// instance matrices). Returns the ms that shaders took.
-double deform(Scene& scene);
+// instance matrices). Returns the ms that shaders took; counts the vertices moved.
+double deform(Scene& scene, uint64_t* vertices = nullptr);
 
 // The vertices of a skin (the shape's own, or one with its joints) where its joints are now, by the
 // scene's SkinMethod. Spans as for skin::deform.

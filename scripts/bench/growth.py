@@ -3,14 +3,18 @@
 row a size, and the exponent between the last two sizes. It asserts nothing.
 
     scripts/bench/growth.py [--large] [KINORA_RENDER [WORD...]]
+    scripts/bench/growth.py --moving [KINORA_RENDER]  # what a frame's update costs where 1 % of the
+                                                      # nodes move; writes it into docs/trade.md
 
 The scenes are a field of squares seen from above. Times are the CPU time of a run on one thread less
 that of a run that only loads (`--list lights`), the least of three. WORD: rows whose names hold it.
 --large adds ten million triangles, whose file has 600 MB.
 """
+import json
 import math
 import pathlib
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -83,6 +87,92 @@ def field(lights=1, materials=1, nodes=1, reach=None, spot=None, triangles=2):
     return "".join(text)
 
 
+def moving(nodes):
+    """The field of which one node in a hundred moves, evenly spread; at least one."""
+    text = field(nodes=nodes)
+    step = min(100, nodes)
+    parts = text.split("<node><translate>")
+    first = len(parts) - nodes  # the camera and the light come before
+    channels = []
+    for n in range(0, nodes, step):
+        at = first + n
+        parts[at] = parts[at].replace("</translate>", f'</translate><translate sid="m{n}">0 0 0</translate>', 1)
+        parts[at - 1] += f'<node id="n{n}"><translate>'
+        channels.append(
+            f'<animation id="a{n}"><source id="a{n}-i"><float_array id="a{n}-ia" count="2">0 9</float_array><technique_common>'
+            f'<accessor source="#a{n}-ia" count="2" stride="1"><param name="TIME" type="float"/></accessor></technique_common>'
+            f'</source><source id="a{n}-o"><float_array id="a{n}-oa" count="2">0 0.5</float_array><technique_common>'
+            f'<accessor source="#a{n}-oa" count="2" stride="1"><param name="Z" type="float"/></accessor></technique_common>'
+            f'</source><source id="a{n}-k"><Name_array id="a{n}-ka" count="2">LINEAR LINEAR</Name_array><technique_common>'
+            f'<accessor source="#a{n}-ka" count="2" stride="1"><param name="INTERPOLATION" type="name"/></accessor>'
+            f'</technique_common></source><sampler id="a{n}-s"><input semantic="INPUT" source="#a{n}-i"/>'
+            f'<input semantic="OUTPUT" source="#a{n}-o"/><input semantic="INTERPOLATION" source="#a{n}-k"/></sampler>'
+            f'<channel source="#a{n}-s" target="n{n}/m{n}.Z"/></animation>')
+    joined = parts[0]
+    for part in parts[1:]:
+        joined += part if joined.endswith('"><translate>') else "<node><translate>" + part
+    return joined.replace("<library_visual_scenes>",
+                          f"<library_animations>{''.join(channels)}</library_animations><library_visual_scenes>", 1)
+
+
+STAGES = ("animate", "skin", "refit")  # all that a frame does before its first ray, but for the camera
+
+
+def update_ms(program, scene):
+    """Each stage's median over frames that all move; wall clock on one thread."""
+    out = subprocess.run([program, scene, "--size", "1x1", "--spp", "1", "--threads", "1", "--frames", "2-61", "-o", "null",
+                          "--stats=json", "-q"], check=True, capture_output=True, text=True).stdout
+    frames = json.loads(out)["frames"]
+    return [statistics.median(frame[f"{stage}_ms"] for frame in frames) for stage in STAGES]
+
+
+def plot(rows, file):
+    """Logarithmic: ms against nodes, the sum of the stages."""
+    width, height, left, top, decades_x, decades_y = 420, 260, 50, 14, 4, 4
+    y0 = min(0.001, min(sum(ms) for _, ms in rows))
+    def at(nodes, ms):
+        x = left + math.log10(nodes) / decades_x * (width - left - 12)
+        return x, top + (1 - (math.log10(ms) - math.log10(y0)) / decades_y) * (height - top - 36)
+    def line(points, style):
+        text = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        return f'<polyline points="{text}" fill="none" {style}/>'
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" '
+             f'font-size="11"><rect width="{width}" height="{height}" fill="white"/>']
+    for d in range(decades_x + 1):
+        x = at(10 ** d, y0)[0]
+        parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{top}" y2="{height - 36}" stroke="#ddd"/>'
+                     f'<text x="{x:.1f}" y="{height - 22}" text-anchor="middle">{10 ** d:,}</text>')
+    for d in range(decades_y + 1):
+        y = at(1, y0 * 10 ** d)[1]
+        parts.append(f'<line x1="{left}" x2="{width - 12}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
+                     f'<text x="{left - 5}" y="{y + 4:.1f}" text-anchor="end">{y0 * 10 ** d:.3g}</text>')
+    parts.append(line([at(n, sum(ms)) for n, ms in rows], 'stroke="#c33" stroke-width="2"'))
+    parts += [f'<circle cx="{at(n, sum(ms))[0]:.1f}" cy="{at(n, sum(ms))[1]:.1f}" r="3" fill="#c33"/>' for n, ms in rows]
+    parts.append(f'<text x="{width / 2}" y="{height - 6}" text-anchor="middle">nodes, of which 1 % move; ms of a '
+                 "frame's update</text></svg>")
+    file.write_text("\n".join(parts) + "\n")
+
+
+def measure_moving(program):
+    root = pathlib.Path(__file__).resolve().parents[2]
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "s.dae"
+        for nodes in (1, 10, 100, 1000, 10000):
+            scene.write_text(moving(nodes))
+            rows.append((nodes, update_ms(program, str(scene))))
+    lines = ["| nodes | that move | animate, ms | transform and pose, ms | refit, ms | sum |", "|---|---|---|---|---|---|"]
+    for nodes, ms in rows:
+        lines.append(f"| {nodes:,} | {max(1, nodes // 100)} | " + " | ".join(f"{x:.4f}" for x in ms) + f" | {sum(ms):.4f} |")
+    print("\n".join(lines))
+    plot(rows, root / "docs/images/growth_moving.svg")
+    page = root / "docs/trade.md"
+    begin, end = "<!-- measured by scripts/bench/growth.py --moving -->\n", "<!-- end of what moves -->"
+    text = page.read_text()
+    page.write_text(text[:text.index(begin) + len(begin)] + "\n" + "\n".join(lines) +
+                    "\n\n![ms of a frame's update against nodes](images/growth_moving.svg)\n\n" + text[text.index(end):])
+
+
 def cpu_seconds(command):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -114,8 +204,10 @@ GROWS = {
 
 
 def main():
-    words = [a for a in sys.argv[1:] if a != "--large"]
+    words = [a for a in sys.argv[1:] if not a.startswith("--")]
     program = words[0] if words else "kinora-render"
+    if "--moving" in sys.argv:
+        return measure_moving(program)
     if "--large" in sys.argv:
         sizes, *rest = GROWS["triangles"]
         GROWS["triangles"] = (sizes + (10 ** 7,), *rest)

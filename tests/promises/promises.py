@@ -17,8 +17,12 @@ TESTS = HERE.parent
 SUITES = ("Extremes", "SamplerExtremes", "SkinExtremes", "ExtremeMesh", "RenderExtremes", "LongSources", "FarAndSmall",
           "Cracks", "SkinTwist")
 TIERS = ("precise", "fast", "both", "-")
+# The cases that were listed before any of them was built. Each has a row; later rows need no number.
+CASES = range(1, 95)
 
-Promise = namedtuple("Promise", "line case outcome tier tests")
+Promise = namedtuple("Promise", "line numbers case outcome tier tests")
+# Of a test: the folder of tests that it stands in, and whether AArch64 runs it too.
+Test = namedtuple("Test", "stage on_arm")
 
 
 def read_table(text):
@@ -31,10 +35,11 @@ def read_table(text):
             sections.append((line[3:].strip(), []))
             continue
         parts = [part.strip() for part in line.split(" | ")]
-        if len(parts) != 4 or not all(parts) or not sections:
-            wrong.append(f"{number}: expected 'case | outcome | tier | tests' below a '== title'")
+        if len(parts) != 5 or not all(parts) or not sections or not re.fullmatch(r"-|\d+( \d+)*", parts[0]):
+            wrong.append(f"{number}: expected 'numbers | case | outcome | tier | tests' below a '== title'")
             continue
-        promise = Promise(number, parts[0], parts[1], parts[2], parts[3].split())
+        numbers = [int(n) for n in parts[0].split() if n != "-"]
+        promise = Promise(number, numbers, *parts[1:4], [test for test in parts[4].split() if test != "-"])
         if promise.tier not in TIERS:
             wrong.append(f"{number}: the tier is one of {', '.join(TIERS)}, not '{promise.tier}'")
         sections[-1][1].append(promise)
@@ -52,40 +57,58 @@ def test_programs():
     return on_arm
 
 
+def stage_of(path):
+    """"rsl" for a test of the folder tests/rsl."""
+    return path.relative_to(TESTS).parts[0]
+
+
 def known_tests():
-    """Name of each test -> whether AArch64 runs it; of Python's, file.py:test_name."""
+    """Name of each test -> Test; of Python's, file.py:test_name."""
     names = {}
     programs = test_programs()
     for path in TESTS.rglob("*.cpp"):
         for suite, name in re.findall(r"^TEST(?:_P|_F)?\((\w+), (\w+)\)", path.read_text(), re.M):
             key = f"{suite}.{name}"
-            names[key] = names.get(key, False) or programs.get(path.resolve(), False)
+            on_arm = programs.get(path.resolve(), False)
+            names[key] = Test(stage_of(path), on_arm or (key in names and names[key].on_arm))
     for path in (TESTS / "programs").rglob("*.py"):
         for name in re.findall(r"^    def (test_\w+)\(self", path.read_text(), re.M):
-            names[f"{path.name}:{name}"] = False
+            names[f"{path.name}:{name}"] = Test("programs", False)
     return names
 
 
 def check(sections, tests):
-    """What is wrong: promises whose test is not there, and tests of extremes that no promise names."""
-    named = {test for _, promises in sections for promise in promises for test in promise.tests}
-    wrong = [f"{promise.line}: there is no test '{test}' for '{promise.case}'"
-             for _, promises in sections for promise in promises for test in promise.tests if test not in tests]
+    """What is wrong: promises whose test is not there, tests of extremes that no promise names, cases without a row."""
+    rows = [promise for _, promises in sections for promise in promises]
+    named = {test for promise in rows for test in promise.tests}
+    wrong = [f"{p.line}: there is no test '{test}' for '{p.case}'" for p in rows for test in p.tests if test not in tests]
     wrong += [f"no promise names the test '{test}'" for test in sorted(tests)
               if test.split(".")[0] in SUITES and test not in named]
+    numbers = {number for p in rows for number in p.numbers}
+    wrong += [f"case {number} stands in no row" for number in CASES if number not in numbers]
+    wrong += [f"{p.line}: there is no case {number}" for p in rows for number in p.numbers if number not in CASES]
+    wrong += [f"{p.line}: '{p.case}' has no test; where a case concerns nothing, the outcome begins with 'nothing:'"
+              for p in rows if not p.tests and not p.outcome.startswith("nothing:")]
+    # What shaders compute and what moves a scene holds on every target.
+    wrong += [f"{p.line}: no test of '{p.case}' runs on AArch64" for p in rows
+              if p.tier != "-" and p.tests and not any(tests[t].on_arm for t in p.tests if t in tests)]
     return wrong
 
 
 def markdown(sections, tests):
     lines = ["# Numerical promises", "",
              "What holds at the extremes, with the tests that hold it. `tests/promises/promises.table` is its source.",
-             "Tests in *italics* run on AArch64 too. [numerics.md](numerics.md) has the reasons.",
-             "The precise tier gives the same bits on every target.", ""]
+             "The column of numbers has those of the first list of cases, 1 to 94. Each of them has a row.",
+             "Stages are the folders of `tests` that hold the case. Tests in *italics* run on AArch64 too.",
+             "Where a tier is named, tests run on every target: interpreter, AVX2, AVX-512 and NEON.",
+             "The precise tier gives the same bits on all of them. [numerics.md](numerics.md) has the reasons.", ""]
     for title, promises in sections:
-        lines += [f"## {title}", "", "| case | what holds | tier | tests |", "|---|---|---|---|"]
+        lines += [f"## {title}", "", "| | case | what holds | tier | stages | tests |", "|---|---|---|---|---|---|"]
         for p in promises:
-            shown = ", ".join(f"*{test}*" if tests.get(test) else test for test in p.tests)
-            lines.append(f"| {p.case} | {p.outcome} | {'' if p.tier == '-' else p.tier} | {shown} |")
+            shown = ", ".join(f"*{t}*" if t in tests and tests[t].on_arm else t for t in p.tests)
+            stages = ", ".join(dict.fromkeys(tests[t].stage for t in p.tests if t in tests))
+            numbers = ", ".join(map(str, p.numbers))
+            lines.append(f"| {numbers} | {p.case} | {p.outcome} | {'' if p.tier == '-' else p.tier} | {stages} | {shown} |")
         lines.append("")
     return "\n".join(lines[:-1])
 
@@ -98,9 +121,11 @@ def main():
         return 0
     wrong += check(sections, tests)
     # The check itself must be able to fail.
-    spoiled, _ = read_table(TABLE.read_text().replace("Extremes.PowOf0", "Extremes.PowOfNought"))
-    if len(check(spoiled, tests)) < len(check(sections, tests)) + 2:
-        wrong.append("a promise without its test was not noticed")
+    for words, spoiled, most in (("a promise without its test", ("Extremes.PowOf0", "Extremes.PowOfNought"), 3),
+                                 ("a case without a row", ("\n44 | ", "\n- | "), 1)):
+        others, _ = read_table(TABLE.read_text().replace(*spoiled))
+        if len(check(others, tests)) != len(check(sections, tests)) + most:
+            wrong.append(f"{words} was not noticed")
     for line in wrong:
         print(f"{os.path.relpath(TABLE)}:{line}", file=sys.stderr)
     count = sum(len(promises) for _, promises in sections)

@@ -171,6 +171,20 @@ TEST(LowerLights, LightsWriteOneRecordAStatement) {
     EXPECT_EQ(out["light:1:Cl.g"][1], 0.5f);
 }
 
+// What a renderer makes soft shadows of. One direction has no such output, which would cost records.
+TEST(LowerLights, SolarTellsTheAngleOfItsCone) {
+    RunShader light(
+        "light l(float width = 0.5;) { solar(vector(0, 0, -1), 0) Cl = 1;"
+        " solar(vector(0, 0, -1), width) Cl = 1; solar() Cl = 1;"
+        " if (zcomp(Ps) > 0) solar(vector(0, 0, -1), 0.25) Cl = 1; }");
+    ASSERT_TRUE(light.ok()) << light.findings();
+    light.set("Ps.z", std::vector<float>{-2, 2});
+    auto out = light.run(2);
+    EXPECT_EQ(out["light:1:spread"], (std::vector<float>{0.5f, 0.5f}));
+    EXPECT_EQ(out["light:3:spread"], (std::vector<float>{0, 0.25f}));
+    EXPECT_EQ(out.count("light:0:spread") + out.count("light:2:spread"), 0u);
+}
+
 // Behind its only statement, and only where that lights.
 TEST(LowerLights, WhatIsAssignedBehindTheStatementCounts) {
     RunShader light(

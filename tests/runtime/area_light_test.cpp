@@ -305,5 +305,88 @@ TEST(AreaLight, GivesTheSameBytesForAnyThreadsAndTargets) {
     }
 }
 
+// ---- a sun with a disc --------------------------------------------------------------------------
+
+// A floor lit from straight above, half of the sky behind a sheet whose edge runs over x = 0.
+constexpr double kSheet = 11;  // above the eye, so that it hides nothing
+SceneText half_sky(const std::string& sun) {
+    SceneText scene = floor_scene(
+        "surface s() { Oi = 1; Ci = 0; illuminance(P, normalize(N), PI/2) Ci += Cl; }");
+    scene
+        .mesh("sheet", {{-1000, -1000, kSheet}, {0, -1000, kSheet}, {0, 1000, kSheet}, {-1000, 1000, kSheet}},
+              {0, 1, 2, 0, 2, 3})
+        .place("sheet", "floor-look")
+        .rsl_light("sun", sun);
+    return scene;
+}
+Rendering sunlit(const std::string& sun, uint32_t samples) {
+    SceneOptions options;
+    options.light_samples = samples;
+    return Rendering(half_sky(sun).text(), options);
+}
+
+// Of a disc of that half-angle, uniform in solid angle, the share that a point at x sees: the part
+// of each ring about the zenith beyond the edge, which stands at atan(-x / height).
+double seen_share(double x, double half_angle) {
+    constexpr int kRings = 4000;
+    double seen = 0, all = 0;
+    for (int k = 0; k < kRings; ++k) {
+        const double theta = (k + 0.5) / kRings * half_angle;
+        const double edge = std::clamp(-x / kSheet / std::tan(theta), -1.0, 1.0);
+        seen += std::sin(theta) * std::acos(edge) / kPi;
+        all += std::sin(theta);
+    }
+    return seen / all;
+}
+
+TEST(Solar, AnAngleGivesShadowsAPenumbraOfItsWidth) {
+    const double half_angle = 0.05, reach = kSheet * std::tan(half_angle);  // 0.55 of [-1, 1]
+    Rendering r = sunlit("light s() { solar(vector \"world\" (0, 0, -1), 0.05) Cl = 1; }", 1024);
+    EXPECT_EQ(r.findings(), "");
+    r.frame(32, 4);
+    int partly = 0;
+    for (int x = 0; x < 32; ++x) {
+        const double at = r.place(x, 2).x, share = double(r.color(x, 2).x);
+        EXPECT_NEAR(share, seen_share(at, half_angle), 0.01) << at;
+        if (at < -reach) EXPECT_EQ(share, 0) << at;
+        if (at > reach) EXPECT_NEAR(share, 1, 1e-4) << at;
+        partly += share > 0 && share < 0.9999;
+    }
+    EXPECT_GE(partly, 16);  // of 17.6 pixels
+    EXPECT_LE(partly, 18);
+}
+
+// A disc that shrinks to a point is that point; what is one direction costs one ray a point.
+TEST(Solar, WithoutAnAngleCastsOneHardShadow) {
+    Rendering fixed = sunlit("light s() { solar(vector \"world\" (0, 0, -1), 0) Cl = 1; }", 16);
+    Rendering given =
+        sunlit("light s(float a = 0;) { solar(vector \"world\" (0, 0, -1), a) Cl = 1; }", 16);
+    Rendering small =
+        sunlit("light s() { solar(vector \"world\" (0, 0, -1), 1e-6) Cl = 1; }", 16);
+    for (Rendering* r : {&fixed, &given, &small}) r->frame();
+    EXPECT_TRUE(same_bytes(fixed.film, given.film));
+    EXPECT_LT(difference(fixed.film, small.film), 1e-6f);
+    EXPECT_EQ(fixed.stats.rays, given.stats.rays);
+    EXPECT_EQ(fixed.color(0, 8).x, 0);
+    EXPECT_EQ(fixed.color(15, 8).x, 1);
+    const uint64_t shadow_rays = fixed.stats.rays - 16 * 16;
+    EXPECT_EQ(small.stats.rays - 16 * 16, 16 * shadow_rays);
+}
+
+TEST(Solar, SoftShadowsHaveTheSameBytesForAnyThreadsAndTargets) {
+    const std::string sun = "light s() { solar(vector \"world\" (0.2, 0, -1), 0.05) Cl = 1; }";
+    Rendering first = sunlit(sun, 8);
+    first.frame(40, 33);
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        Threads scope(3);
+        SceneOptions options;
+        options.light_samples = 8;
+        options.target = &target;
+        Rendering again(half_sky(sun).text(), options);
+        EXPECT_TRUE(same_bytes(first.film, again.frame(40, 33).film)) << target.name;
+    }
+}
+
 }  // namespace
 }  // namespace kinora

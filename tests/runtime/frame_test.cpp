@@ -2,6 +2,8 @@
 // the time alone.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "allocations_of_ours.h"
 #include "jit/target.h"
 #include "runtime/base/parallel.h"
@@ -202,6 +204,39 @@ TEST(Frame, ACameraWithoutAPictureIsAnError) {
     EXPECT_FALSE(render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics));
     ASSERT_EQ(r.count("CAMERA_OPTICS"), 1) << r.findings();
     EXPECT_GT(r.where(*r.find("CAMERA_OPTICS")).line, 1);
+}
+
+// Pictures too large for memory are made a band at a time: imager, outputs and all.
+TEST(Frame, BandsAreTheRowsOfTheWholePicture) {
+    SceneText scene = moving_scene();
+    scene.scene_effect("grain", "imager g() { Ci += 0.1 * random() + 0.1 * noise(P / 7); }",
+                       "<shader stage=\"IMAGER\"/>");
+    for (int samples : {1, 4}) {
+        Rendering whole(scene.text());
+        whole.settings.integrator.samples_per_pixel = samples;
+        whole.frame(70, 150, 0.5);
+        Rendering banded(scene.text());
+        banded.settings.integrator.samples_per_pixel = samples;
+        banded.settings.band_rows = 64;
+        std::vector<vec4> rows;
+        size_t most = 0;
+        banded.settings.on_band = [&](const raytrace::Film& band) {
+            EXPECT_EQ(band.top, int(rows.size() / 70));
+            most = std::max(most, band.rgba.size());
+            rows.insert(rows.end(), band.rgba.begin(), band.rgba.end());
+            return true;
+        };
+        banded.frame(70, 150, 0.5);
+        ASSERT_EQ(rows.size(), whole.film.rgba.size());
+        EXPECT_EQ(std::memcmp(rows.data(), whole.film.rgba.data(), rows.size() * sizeof(vec4)), 0);
+        EXPECT_EQ(most, 70u * 64);
+        EXPECT_EQ(banded.stats.rays, whole.stats.rays);
+        EXPECT_EQ(banded.findings(), whole.findings());
+        // And a whole picture again with the same film.
+        banded.settings.band_rows = 0;
+        banded.frame(70, 150, 0.5);
+        EXPECT_TRUE(same_bytes(banded.film, whole.film));
+    }
 }
 
 }  // namespace

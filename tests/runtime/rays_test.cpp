@@ -523,5 +523,74 @@ TEST(Rays, AllocateNothingAfterTheFirstFrames) {
     EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours();
 }
 
+// ---- footprints in curved mirrors ---------------------------------------------------------------
+
+constexpr double kBall = 0.8, kSky = 12;  // its radius; the height of what it shows
+
+// A ball of smooth normals below a large sheet that shows the footprints on it, in units.
+SceneText mirror_ball(const std::string& turned) {
+    SceneText scene;
+    constexpr int kRound = 192, kUp = 96;
+    std::vector<dvec3> at, normals;
+    std::vector<int> triangles;
+    for (int j = 0; j <= kUp; ++j)
+        for (int i = 0; i <= kRound; ++i) {
+            const double up = kPi * j / kUp, turn = 2 * kPi * i / kRound;
+            normals.push_back({std::sin(up) * std::cos(turn), std::cos(up), std::sin(up) * std::sin(turn)});
+            at.push_back(kBall * normals.back());
+        }
+    for (int j = 0; j < kUp; ++j)
+        for (int i = 0; i < kRound; ++i) {
+            const int a = j * (kRound + 1) + i, b = a + kRound + 1;
+            for (int k : {a, a + 1, b + 1, a, b + 1, b}) triangles.push_back(k);
+        }
+    scene
+        .look("mirror",
+              "surface mirror() { Oi = 1; Ci = trace(P, reflect(normalize(I), normalize(N))); }")
+        .look("sky", "surface sky() { Oi = 1; Ci = 2000 * color(du, dv, 0); }")
+        .mesh("ball", at, triangles, normals)
+        .square("sheet", 1000)
+        .place("ball", "mirror", turned, "ball-node")
+        .place("sheet", "sky", "<translate>0 0 12</translate><rotate>1 0 0 180</rotate>");
+    return scene;
+}
+
+// Where the sheet is that a pixel's centre shows.
+dvec2 seen_in_ball(dvec2 p) {
+    const dvec3 P(p, std::sqrt(kBall * kBall - glm::dot(p, p))), N = P / kBall;
+    const dvec3 in(0, 0, -1), R = in - 2 * glm::dot(in, N) * N;
+    return dvec2(P) + dvec2(R) * ((kSky - P.z) / R.z);
+}
+
+TEST(Footprints, InABallAreThoseOfFiniteDifferences) {
+    // Placed once; an instance that moves, in other axes and of another size.
+    SceneText moving = mirror_ball(
+        "<rotate sid=\"turn\">0 1 0 20</rotate><rotate>1 0 0 70</rotate><scale>2 2 2</scale>"
+        "<scale>.5 .5 .5</scale>");
+    moving.animate("ball-node/turn.ANGLE", {0, 1}, {20, 60});
+    for (const std::string& text : {mirror_ball("").text(), moving.text()}) {
+        Rendering r(text);
+        r.frame(24, 24);
+        ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
+        const double pixel = 2.0 / 24, step = 1e-5;
+        int compared = 0;
+        for (int y = 0; y < 24; ++y)
+            for (int x = 0; x < 24; ++x) {
+                const dvec2 p = r.place(x, y);
+                if (glm::length(p) > 0.6 * kBall) continue;  // beyond 0.7 it shows the other side
+                const dvec2 dx = seen_in_ball(p + dvec2(step, 0)) - seen_in_ball(p - dvec2(step, 0));
+                const dvec2 dy = seen_in_ball(p + dvec2(0, step)) - seen_in_ball(p - dvec2(0, step));
+                const double scale = pixel / (2 * step);
+                const double du = scale * std::max(std::abs(dx.x), std::abs(dy.x));
+                const double dv = scale * std::max(std::abs(dx.y), std::abs(dy.y));
+                EXPECT_GT(du, 25 * pixel);  // a flat mirror would show a pixel's width
+                EXPECT_NEAR(r.color(x, y).x, du, 0.03 * du) << p.x << " " << p.y;
+                EXPECT_NEAR(r.color(x, y).y, dv, 0.03 * dv) << p.x << " " << p.y;
+                ++compared;
+            }
+        EXPECT_GT(compared, 80);
+    }
+}
+
 }  // namespace
 }  // namespace kinora

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "character.h"
+#include "skin/narrowest.h"
 #include "wrung.h"
 
 namespace kinora::skin {
@@ -26,6 +27,19 @@ TEST(SkinTwist, LinearBlendingLosesWhatItsFormulaSays) {
             least = std::min(least, radius);
         }
         EXPECT_NEAR(least, std::abs(std::cos(step / 2)), 1e-6);
+    }
+}
+
+// What is told of a pose is what its vertices have lost, bends and stretches included.
+TEST(SkinTwist, TheNarrowestPlaceIsToldOfAPose) {
+    for (double degrees : {0.0, 30.0, 90.0, 150.0, 180.0}) {
+        Character c = wrung(9, radians(degrees), 16);
+        const SkinMesh skin = build_skin(c.source(), c.normal_positions);
+        EXPECT_NEAR(narrowest(skin, c.palette()), std::abs(std::cos(radians(degrees) / 2)), 1e-6)
+            << degrees;
+        for (dmat4& m : c.matrices) m = m * dmat4(2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1);
+        EXPECT_NEAR(narrowest(skin, c.palette()), std::abs(std::cos(radians(degrees) / 2)), 1e-6)
+            << degrees << ", twice as large";
     }
 }
 

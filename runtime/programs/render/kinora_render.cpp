@@ -12,11 +12,13 @@
 #include "runtime/base/raise_findings.h"
 #include "runtime/description/findings.h"
 #include "runtime/explain/explain.h"
+#include "runtime/images/texture_store.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
+#include "runtime/programs/render/band_writer.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/frame_codes.h"
 #include "runtime/programs/render/frame_writer.h"
@@ -79,7 +81,9 @@ class Render {
         if (!options_.explain.empty()) print_explained();
         if (!pictures) return code;
         if (options_.stats)
-            print_stats(options_, {load_ms_, build_ms_, first_ray_ms_, built_.scene->dice},
+            print_stats(options_,
+                        {load_ms_, build_ms_, first_ray_ms_, built_.scene->dice,
+                         built_.scene->textures ? built_.scene->textures->decoded_bytes() : 0},
                         records_);
         return code;
     }
@@ -100,6 +104,7 @@ class Render {
     int refuse_unwritable(const std::string& file);
     bool keep_existing(const std::string& file, const std::string& print);
     void end_write();
+    int end_bands(FrameRecord& record, bool whole);
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);
     void place_session_camera(double time);
@@ -118,6 +123,7 @@ class Render {
     ContactSheet sheet_;
     std::vector<FrameRecord> records_;
     FrameWriter writer_;
+    BandWriter bands_;
     FrameCodes codes_{options_.keep_going};
     FrameRate rate_;
     Stopwatch since_start_;
@@ -240,6 +246,13 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     raytrace::Progress progress(on_tile);
     if (first_ray_ms_ == 0) first_ray_ms_ = since_start_.ms();
     ptrdiff_t unwritten = unwritable();
+    WrittenFrame to_write{
+        .record = number,
+        .file = record.file,
+        .color = options_.color,
+        .texts = {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}}};
+    const bool in_bands = settings_.band_rows > 0;
+    if (in_bands) bands_.start(to_write, settings_.height);
     bool whole =
         (!targeted_ || choose_samples(frame, time, progress)) && picture(record, time, progress);
     bool baked = unwritable() == unwritten;  // point files
@@ -247,26 +260,31 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (g_signal) return 128 + g_signal;
     if (codes_.ended()) return codes_.code();
     flush_findings();
+    if (in_bands)
+        if (int code = end_bands(record, whole)) return code;
     if (!whole) return kExitSomeFailed;
     record.samples = settings_.integrator.samples_per_pixel;
     if (targeted_) targeted_->took(record.samples, record.stats.total);
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
-    if (wants_file) {
-        writer_.start(
-            {.record = number,
-             .file = record.file,
-             .color = options_.color,
-             .texts = {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}},
-             .film = std::exchange(film_, std::move(spare_film_))},
-            thread_count() > 1);
+    if (wants_file && !in_bands) {
+        to_write.film = std::exchange(film_, std::move(spare_film_));
+        writer_.start(std::move(to_write), thread_count() > 1);
         if (thread_count() == 1) end_write();
     } else {
         Stopwatch watch;
         if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
-        record.write_ms = watch.ms();
+        record.write_ms += watch.ms();
         progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
     }
     return baked ? kExitOk : kExitSomeFailed;
+}
+
+// Of a frame in bands: its file, if all of them came.
+int Render::end_bands(FrameRecord& record, bool whole) {
+    const WrittenFrame written = bands_.finish(whole);
+    record.write_ms = written.ms;
+    if (written.error.empty()) return kExitOk;
+    return report_unwritable(written.file, written.error, written.number);
 }
 
 // Waits for the frame that is being written, if any.
@@ -348,6 +366,12 @@ int Render::frames() {
         settings_.gain *= std::exp2(session->exposure);
         if (session->width > 0) settings_.width = session->width;
         if (session->height > 0) settings_.height = session->height;
+    }
+    // A contact sheet and settings for a target take whole pictures.
+    if (options_.contact_sheet.empty() && !options_.frame_target.any()) {
+        settings_.band_rows =
+            band_rows(settings_.width, settings_.height, settings_.integrator.tile);
+        settings_.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };
     }
     progress_ = ProgressReport(options_.progress, list->size());
     for (size_t i = 0; i < list->size(); ++i) {

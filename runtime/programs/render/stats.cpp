@@ -101,6 +101,8 @@ void print_json(const RenderOptions& options, const RunRecord& run,
     json["kernels"] = cache.kernels;
     json["compile_ms"] = cache.total_ms;
     json["code_bytes"] = cache.code_bytes;
+    json["derivative_values"] = cache.derivative_values;
+    json["texture_bytes"] = run.texture_bytes;
     json["peak_memory_bytes"] = peak_memory_bytes();
     json["dice_ms"] = run.dice.ms;
     json["dice_triangles"] = run.dice.triangles;
@@ -130,6 +132,9 @@ void print_json(const RenderOptions& options, const RunRecord& run,
                           {"nested_occupancy", full.nested},
                           {"rays_per_second", double(s.rays) / s.total * 1e3},
                           {"shading_points", s.shading_points},
+                          {"light_points", s.light_points},
+                          {"vertices", s.vertices},
+                          {"columns", s.columns},
                           {"points_per_second", double(s.shading_points) / s.total * 1e3},
                           {"refits", s.refits},
                           {"rebuilds", s.rebuilds},

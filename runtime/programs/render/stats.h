@@ -27,6 +27,7 @@ struct FrameRecord {
 struct RunRecord {
     double load_ms = 0, build_ms = 0, first_ray_ms = 0;
     DiceStats dice;
+    uint64_t texture_bytes = 0;  // of pictures that were decoded
 };
 
 // To stdout, as text or JSON.

@@ -16,7 +16,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+
+#include "runtime/images/picture_file.h"
 
 namespace kinora {
 namespace {
@@ -41,6 +44,11 @@ class ImageIo : public testing::Test {
     }
     fs::path folder_;
 };
+
+std::string bytes_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
 
 raytrace::Film ramp(int width, int height) {
     raytrace::Film film(width, height);
@@ -115,6 +123,53 @@ TEST_F(ImageIo, AParameterCalledLikeAChannelDoesNotReplaceIt) {
     for (const char* name : {"R", "A", "R.V", "A.V", "dirt"})
         EXPECT_TRUE(file.header().channels().findChannel(name)) << name;
     EXPECT_FALSE(file.header().channels().findChannel("dirt.V"));
+}
+
+TEST_F(ImageIo, BandsGiveTheBytesOfTheWholePicture) {
+    for (bool planes : {false, true})
+        for (const char* name : {"a.png", "a.exr"}) {
+            raytrace::Film film = ramp(9, 70);
+            if (planes) film.add_aov("dirt"), film.add_aov("R"), film.aovs[1].in_file = false;
+            for (raytrace::AovPlane& plane : film.aovs)
+                for (size_t i = 0; i < plane.values.size(); ++i) plane.values[i] = float(i);
+            const ImageTexts texts{{"kinora/fingerprint", "0123"}};
+            ASSERT_EQ(write_image(path(name), film, ColorEncoding::Srgb, texts), "");
+            const std::string whole = bytes_of(path(name));
+            fs::remove(path(name));
+            PictureFile file;
+            for (int top = 0; top < film.height; top += 32) {
+                raytrace::Film band;
+                for (const raytrace::AovPlane& plane : film.aovs) {
+                    band.add_aov(plane.name);
+                    band.aovs.back().in_file = plane.in_file;
+                }
+                band.hold_band(film.width, top, std::min(32, film.height - top));
+                const size_t first = size_t(top) * size_t(film.width);
+                std::copy_n(film.rgba.begin() + ptrdiff_t(first), band.rgba.size(), band.rgba.begin());
+                for (size_t k = 0; k < band.aovs.size(); ++k)
+                    std::copy_n(film.aovs[k].values.begin() + ptrdiff_t(first), band.rgba.size(),
+                                band.aovs[k].values.begin());
+                if (top == 0) {
+                    ASSERT_EQ(file.begin(path(name), band, film.height, ColorEncoding::Srgb, texts),
+                              "");
+                }
+                ASSERT_EQ(file.write(band), "");
+                EXPECT_FALSE(fs::exists(path(name)));
+            }
+            ASSERT_EQ(file.end(), "");
+            EXPECT_EQ(bytes_of(path(name)), whole) << name << planes;
+        }
+}
+
+TEST_F(ImageIo, APictureThatDoesNotEndLeavesNoFile) {
+    const size_t before = files();
+    {
+        PictureFile file;
+        raytrace::Film film = ramp(8, 8);
+        ASSERT_EQ(file.begin(path("b.exr"), film, 16, ColorEncoding::Srgb, {}), "");
+        ASSERT_EQ(file.write(film), "");
+    }
+    EXPECT_EQ(files(), before);
 }
 
 // IEC 61966-2-1: linear 0.5 is 188, 0.21586 is 128 (of 255).

@@ -6,11 +6,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from programs import SCENES, ProgramTest, main, render
+from written_scenes import (CAMERA, EYE, WHITE, animation, animations, controllers, document, geometries, one_joint_skin,
+                            place, png, rsl, square)
 
 WALKER = (SCENES / "walker.dae").read_text()
 # What a frame does, and what a scene compiled.
-PER_FRAME = ("rays", "shadow_rays", "nested_rays", "shading_points", "refits", "rebuilds")
-PER_SCENE = ("kernels", "code_bytes")
+PER_FRAME = ("rays", "shadow_rays", "nested_rays", "shading_points", "light_points", "vertices", "columns", "refits",
+             "rebuilds")
+PER_SCENE = ("kernels", "code_bytes", "derivative_values", "texture_bytes")
 
 
 def added(library, inside, text=WALKER):
@@ -90,6 +93,26 @@ def lights_that_miss(count):
     return added("lights", lights, in_scene(nodes))
 
 
+def lamps(count, category):
+    """Libraries and nodes of RSL lights of a category."""
+    id = category.replace(",", "-")
+    code = f'light lamp(string __category = "{category}";) {{ illuminate(point "shader" (0, 0, 0)) Cl = 1; }}'
+    effect = (f'<effect id="{id}-fx"><profile_RSL><technique sid="t"><code><![CDATA[{code}]]></code><pass>'
+              '<shader stage="LIGHT"/></pass></technique></profile_RSL></effect>')
+    lights = "".join(
+        f'<light id="{id}{i}"><technique_common><point><color>1 1 1</color></point></technique_common><extra>'
+        f'<technique profile="RSL"><instance_effect url="#{id}-fx"/></technique></extra></light>' for i in range(count))
+    nodes = "".join(f'<node><translate>0 0 5</translate><instance_light url="#{id}{i}"/></node>' for i in range(count))
+    return f"<library_effects>{effect}</library_effects><library_lights>{lights}</library_lights>", nodes
+
+
+def one_lamp_and(libraries="", nodes=""):
+    """A square whose shader asks for lights of the category "key", and one such light."""
+    library, node = lamps(1, "key")
+    code = 'surface s() { Oi = 1; Ci = 0; illuminance("key", P, N, PI / 2) Ci += Cl * (normalize(L) . normalize(N)); }'
+    return document(CAMERA + rsl(code) + geometries(square()) + library + libraries, EYE + place() + node + nodes)
+
+
 def unused_parameters(count):
     """Of the floor's effect: parameters that its shader does not have, and outputs that nobody asks for."""
     outputs = "".join(f"output varying float ua{i} = 0; " for i in range(count))
@@ -117,6 +140,12 @@ class UnusedContent(ProgramTest):
         self.assertEqual(frames, UnusedContent.base[1])
         if kernels:
             self.assertEqual(scene, UnusedContent.base[0])
+
+    def run_counts(self, text, *words):
+        """All counts of a scene's first frame."""
+        stats = json.loads(self.expect(render(self.write("c.dae", text), "-o", "null", "--size", "32x32", "--spp", "1",
+                                              "--lights", "scene", "--stats=json", "-q", *words), 0).out)
+        return {**{k: stats[k] for k in PER_SCENE}, **{k: stats["frames"][0][k] for k in PER_FRAME}}
 
     def explained(self, text, section):
         out = self.expect(render(self.write("w.dae", text), "--explain=json", "-q"), 0).out
@@ -157,6 +186,56 @@ class UnusedContent(ProgramTest):
 
     def test_lights_that_look_away(self):
         self.expect_nearly_the_same(lights_that_miss(100))
+
+    def test_lights_of_another_category(self):
+        """No loop of a shader asks for them: neither their kernels nor shadow rays run."""
+        base, more = self.run_counts(one_lamp_and()), self.run_counts(one_lamp_and(*lamps(100, "fill")))
+        for name in PER_FRAME:
+            self.assertEqual(more[name], base[name], name)
+        self.assertGreater(base["shadow_rays"], 0)
+        asked = self.run_counts(one_lamp_and(*lamps(3, "key,fill")))
+        self.assertEqual(asked["light_points"], 4 * base["light_points"])
+        self.assertEqual(asked["shadow_rays"], 4 * base["shadow_rays"])
+
+    # ---- what is never reached is never compiled, gathered or decoded
+
+    def test_a_constant_shader_needs_nothing(self):
+        counts = self.run_counts(document(CAMERA + WHITE + geometries(square()), EYE + place()))
+        self.assertEqual(counts["kernels"], 1)
+        for name in ("derivative_values", "texture_bytes", "vertices", "columns", "light_points", "shadow_rays",
+                     "nested_rays"):
+            self.assertEqual(counts[name], 0, name)
+
+    def test_what_a_branch_never_reaches_is_not_there(self):
+        """Du, a texture and lights behind a condition that is false at compile time."""
+        png.write(self.folder / "red.png", 2, 2, [bytes([255, 0, 0] * 2)] * 2)
+        code = ('surface s(float on = {};) {{ Oi = 1; Ci = 1; if (on > 0) Ci = Du(noise(P)) + texture("red.png") + '
+                "diffuse(normalize(N)); }}")
+        library, node = lamps(1, "key")
+
+        def counts(on):
+            return self.run_counts(document(CAMERA + rsl(code.format(on)) + geometries(square()) + library,
+                                            EYE + place() + node))
+        off, on = counts(0), counts(1)
+        for name in ("derivative_values", "texture_bytes", "columns", "light_points", "shadow_rays"):
+            self.assertEqual(off[name], 0, name)
+            self.assertGreater(on[name], 0, name)
+        self.assertLess(off["code_bytes"], on["code_bytes"])
+        self.assertLess(off["kernels"], on["kernels"])
+
+    def test_vertices_move_where_joints_do(self):
+        skin = controllers(one_joint_skin("square", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"))
+        joint = '<node id="j" sid="j" type="JOINT"><translate sid="t">0 0 0</translate></node>'
+        body = place(url="#skin", kind="controller", skeleton="<skeleton>#j</skeleton>")
+        move = animations(animation("a", "j/t.X", [0, 1], [0, 1]))
+
+        def vertices(more):
+            text = document(CAMERA + WHITE + geometries(square()) + skin + more, EYE + joint + body)
+            stats = json.loads(self.expect(render(self.write("v.dae", text), "-o", "null", "--size", "16x16", "--frames",
+                                                  "0-2", "--stats=json", "-q"), 0).out)
+            return [f["vertices"] for f in stats["frames"]]
+        self.assertEqual(vertices(""), [4, 0, 0])  # placed once
+        self.assertEqual(vertices(move), [4, 4, 4])
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ dvec3 direction_by_definition(const Cone& cone, uint32_t k, uint32_t seed) {
 
 // The surface that rays leave, and the ray that saw it.
 struct RaySource {
-    vec3 P, error, Ng, in_Ng, in, dDdx, dDdy;
+    vec3 P, error, Ng, in_Ng, in, dDdx, dDdy, dNdx{0.0f}, dNdy{0.0f};
 };
 
 void fill(float (&rows)[3][kSixteen], int lane, vec3 v) {
@@ -77,6 +77,7 @@ void set_lane(RayLanes& lanes, int lane, const RaySource& source) {
     fill(lanes.Ng, lane, source.Ng), fill(lanes.in_Ng, lane, source.in_Ng);
     fill(lanes.in, lane, source.in);
     fill(lanes.dDdx, lane, source.dDdx), fill(lanes.dDdy, lane, source.dDdy);
+    fill(lanes.dNdx, lane, source.dNdx), fill(lanes.dNdy, lane, source.dNdy);
 }
 void set_lane(RayLanes& lanes, int lane, const Cone& cone, uint32_t seed) {
     fill(lanes.x, lane, cone.x), fill(lanes.y, lane, cone.y), fill(lanes.z, lane, cone.z);
@@ -210,6 +211,40 @@ TEST(RayKernels, SpreadsAreThoseOfFlatMirrorsAndOfRaysThatGoOn) {
             for (int k = 0; k < 3; ++k) {
                 ASSERT_NEAR(rays.dDdx[k][5], want_x[k], 2e-8) << kernels->name << " " << turn;
                 ASSERT_NEAR(rays.dDdy[k][5], want_y[k], 2e-8) << kernels->name << " " << turn;
+            }
+        }
+}
+
+// What a mirror whose normal turns sends back, by differences of the law of reflection in double.
+TEST(RayKernels, SpreadsCarryTheTurnOfTheNormal) {
+    Random random;
+    auto reflected = [](dvec3 d, dvec3 n) {
+        n = glm::normalize(n);
+        return d - 2 * glm::dot(d, n) * n;
+    };
+    for (const RayKernels* kernels : all_kernels())
+        for (int turn = 0; turn < 100; ++turn) {
+            RaySource source = random.source();
+            source.in *= random.number(0.5f, 2);
+            if (glm::dot(source.in, source.Ng) > 0) source.in = -source.in;
+            if (glm::dot(source.in, source.Ng) > -0.05f) continue;
+            for (vec3* dN : {&source.dNdx, &source.dNdy}) {
+                const vec3 any = random.unit() * 0.1f;
+                *dN = any - source.Ng * glm::dot(any, source.Ng);
+            }
+            const dvec3 in(source.in), n(source.Ng);
+            SixteenRays rays;
+            shoot(*kernels, source, vec3(reflected(in, n)), rays);
+            auto want = [&](vec3 dD, vec3 dN) {
+                const double h = 1e-6;
+                return (reflected(in + h * dvec3(dD), n + h * dvec3(dN)) -
+                        reflected(in - h * dvec3(dD), n - h * dvec3(dN))) /
+                       (2 * h);
+            };
+            const dvec3 x = want(source.dDdx, source.dNdx), y = want(source.dDdy, source.dNdy);
+            for (int k = 0; k < 3; ++k) {
+                ASSERT_NEAR(rays.dDdx[k][5], x[k], 1e-6) << kernels->name << " " << turn;
+                ASSERT_NEAR(rays.dDdy[k][5], y[k], 1e-6) << kernels->name << " " << turn;
             }
         }
 }

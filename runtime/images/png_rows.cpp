@@ -1,0 +1,119 @@
+// runtime/images/png_rows.cpp: rows of a PNG, by libpng.
+#include <png.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "runtime/base/regular_file.h"
+#include "runtime/images/picture_rows_p.h"
+
+namespace kinora {
+
+namespace {
+
+// What must outlive libpng's longjmps.
+struct PngFault {
+    int number = 0;
+    std::string text;
+};
+void on_png_fault(png_structp png, png_const_charp text) {
+    auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
+    fault->number = errno;
+    fault->text = errno ? std::strerror(errno) : text;
+    longjmp(png_jmpbuf(png), 1);
+}
+void on_png_note(png_structp, png_const_charp) {}
+
+// libpng's part, without objects whose destructors a longjmp would skip.
+bool begin_png_rows(png_structp png, png_infop info, std::FILE* file, int width, int height,
+                    png_text* texts, int text_count) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_init_io(png, file);
+    png_set_compression_level(png, 3);
+    png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), 8, PNG_COLOR_TYPE_RGBA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_text(png, info, texts, text_count);
+    png_write_info(png, info);
+    return true;
+}
+bool put_png_rows(png_structp png, const Image8& image) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    for (int y = 0; y < image.height; ++y)
+        png_write_row(png, &image.rgba[size_t(y) * size_t(image.width) * 4]);
+    return true;
+}
+bool end_png_rows(png_structp png) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_write_end(png, nullptr);
+    return true;
+}
+
+class PngRowsToFile final : public PngRows {
+  public:
+    PngRowsToFile(OpenFile file, ColorEncoding encoding)
+        : file_(std::move(file)), encoding_(encoding) {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, on_png_fault, on_png_note);
+        info_ = png_create_info_struct(png_);
+    }
+    ~PngRowsToFile() override { png_destroy_write_struct(&png_, &info_); }
+
+    std::string begin(int width, int height, const ImageTexts& texts, int& number) {
+        std::vector<png_text> png_texts;
+        for (const auto& [key, value] : texts) {
+            png_text text{};
+            text.compression = PNG_TEXT_COMPRESSION_NONE;
+            text.key = const_cast<char*>(key.c_str());
+            text.text = const_cast<char*>(value.c_str());
+            png_texts.push_back(text);
+        }
+        errno = 0;
+        return told(begin_png_rows(png_, info_, file_.get(), width, height, png_texts.data(),
+                                   int(png_texts.size())),
+                    number);
+    }
+    std::string write(const raytrace::Film& band, int& number) override {
+        return write(to_8_bit(band, encoding_), number);
+    }
+    std::string write(const Image8& rows, int& number) override {
+        errno = 0;
+        return told(put_png_rows(png_, rows), number);
+    }
+    std::string end(int& number) override {
+        errno = 0;
+        std::string error = told(end_png_rows(png_), number);
+        return error.empty() ? sync_file(file_.get(), number) : error;
+    }
+
+  private:
+    std::string told(bool good, int& number) const {
+        if (good) return "";
+        number = fault_.number;
+        return fault_.text;
+    }
+
+    OpenFile file_;
+    ColorEncoding encoding_;
+    PngFault fault_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<PngRows> png_rows(const std::string& path, int width, int height,
+                                  ColorEncoding encoding, const ImageTexts& texts,
+                                  std::string& error, int& number) {
+    errno = 0;
+    OpenFile file(std::fopen(path.c_str(), "wb"));
+    if (!file) {
+        number = errno;
+        error = std::strerror(errno);
+        return nullptr;
+    }
+    auto rows = std::make_unique<PngRowsToFile>(std::move(file), encoding);
+    error = rows->begin(width, height, texts, number);
+    if (!error.empty()) rows.reset();
+    return rows;
+}
+
+}  // namespace kinora
