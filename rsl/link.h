@@ -14,6 +14,7 @@ struct LinkedSource {
     ShaderSource source;
     std::string shader;  // its name; "": the first of the source
     LinkTexts texts;     // what decides which shaders are called
+    LinkCounts counts = {};
 };
 
 // The first is the shader itself, the others are its co-shaders, whose parameters it gets as
