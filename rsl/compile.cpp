@@ -107,7 +107,7 @@ std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>
     if (form == ClassForm::OnlyDisplacement)
         for (ShaderDefinition* shader : ast->shaders) shader->only_displaces = can_displace(*shader);
     bind_integrators(*ast, reporter);
-    if (!expand_objects(*ast, reporter, std::move(units))) return {};
+    if (!expand_objects(*ast, reporter, std::move(units), options.counts)) return {};
     Checker(*ast, reporter, options, recovery).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {
         Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);

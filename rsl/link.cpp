@@ -5,6 +5,7 @@
 
 #include "rsl/compile_p.h"
 #include "rsl/objects/handle_sets.h"
+#include "rsl/objects/open_arrays.h"
 #include "rsl/syntax/parser.h"
 #include "rsl/text/preprocess.h"
 #include "rsl/text/reporter.h"
@@ -95,6 +96,15 @@ std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
     unheard.files = diagnostics.files;
     linked->displacement = link_as(ClassForm::OnlyDisplacement, sources, options, unheard);
     return linked;
+}
+
+bool other_lengths(const Shader& shader, const LinkCounts& counts) {
+    return std::ranges::any_of(shader.definition->open_arrays, [&](const Symbol* parameter) {
+        auto bound = counts.find(parameter->name);
+        if (bound == counts.end()) return false;
+        std::optional<int> length = open_length(*parameter, bound->second);
+        return length && *length != parameter->type.array_length;
+    });
 }
 
 bool knows_co_shaders(const Shader& shader) {

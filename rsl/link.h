@@ -30,6 +30,9 @@ std::vector<LinkedSource> sources_of(const std::vector<LinkedPart>& parts);
 std::unique_ptr<Shader> link_again(const Shader& linked, const ShaderSource& edited,
                                    const CompileOptions& options, Diagnostics& diagnostics);
 
+// Whether a parameter of open length, "T a[]", is another length than that bound to it.
+bool other_lengths(const Shader& shader, const LinkCounts& counts);
+
 // Whether its source speaks of other shaders, so that linking it can change it.
 bool knows_co_shaders(const Shader& shader);
 

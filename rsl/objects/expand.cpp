@@ -226,9 +226,10 @@ bool report_cycle(const Ast& ast, Reporter& reporter, const std::vector<Unit>& u
 
 }  // namespace
 
-bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units) {
+bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units,
+                    const BoundCounts& counts) {
     for (size_t k = 1; k < units.size(); ++k) make_class(ast, units[k]);
-    set_open_arrays(ast, units);
+    set_open_arrays(ast, units, counts);
     if (units.size() < 2 && !has_objects(ast)) return true;
     int errors = reporter.errors();
     if (!check_structs(ast, reporter)) return false;

@@ -5,17 +5,23 @@
 
 namespace kinora::rsl {
 
+std::optional<int> open_length(const Symbol& parameter, size_t count) {
+    bool text = parameter.type.base == BaseType::String;
+    size_t each = text ? 1 : size_t(component_count(parameter.type.base));
+    if (count == 1 && each == 3) return 1;
+    if (count % each != 0) return {};
+    return int(count / each);
+}
+
 namespace {
 
 // Numbers that do not come to whole elements change nothing: whoever binds them reports it.
 void set_length(Symbol& parameter, const BoundCounts& counts) {
     auto bound = counts.find(parameter.name);
     if (bound == counts.end()) return;
-    bool text = parameter.type.base == BaseType::String;
-    size_t each = text ? 1 : size_t(component_count(parameter.type.base));
-    auto length = int(bound->second / each);
-    if (bound->second % each != 0 || length == parameter.type.array_length) return;
-    parameter.type.array_length = length;
+    std::optional<int> length = open_length(parameter, bound->second);
+    if (!length || *length == parameter.type.array_length) return;
+    parameter.type.array_length = *length;
     parameter.initial = nullptr;
 }
 
@@ -52,9 +58,9 @@ void set_open_arrays(Ast& ast, ShaderDefinition& shader, const BoundCounts& coun
 
 }  // namespace
 
-void set_open_arrays(Ast& ast, std::span<const Unit> units) {
+void set_open_arrays(Ast& ast, std::span<const Unit> units, const BoundCounts& counts) {
     if (units.empty())
-        for (ShaderDefinition* shader : ast.shaders) set_open_arrays(ast, *shader, {});
+        for (ShaderDefinition* shader : ast.shaders) set_open_arrays(ast, *shader, counts);
     for (const Unit& unit : units)
         if (unit.shader) set_open_arrays(ast, *unit.shader, unit.counts);
 }
