@@ -8,6 +8,7 @@
 #include "rsl/compile_p.h"
 #include "rsl/objects/integrators.h"
 #include "rsl/objects/objects.h"
+#include "rsl/objects/sample_pairs.h"
 #include "rsl/syntax/parser.h"
 #include "rsl/text/preprocess.h"
 #include "rsl/text/reporter.h"
@@ -106,7 +107,8 @@ std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>
                                                       ClassForm form) {
     if (form == ClassForm::OnlyDisplacement)
         for (ShaderDefinition* shader : ast->shaders) shader->only_displaces = can_displace(*shader);
-    bind_integrators(*ast, reporter);
+    bind_integrators(*ast, reporter, units);
+    bind_sample_pairs(*ast, reporter, units);
     if (!expand_objects(*ast, reporter, std::move(units), options.counts)) return {};
     Checker(*ast, reporter, options, recovery).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {

@@ -72,8 +72,13 @@ struct IntegratorArguments {
 
 class ClassIntegrators {
   public:
-    ClassIntegrators(Ast& ast, Reporter& reporter, ShaderDefinition& shader)
-        : ast_(ast), reporter_(reporter), shader_(shader), class_(*shader.shader_class) {}
+    ClassIntegrators(Ast& ast, Reporter& reporter, ShaderDefinition& shader,
+                     std::span<Function* const> functions)
+        : ast_(ast),
+          reporter_(reporter),
+          shader_(shader),
+          class_(*shader.shader_class),
+          functions_(functions) {}
 
     void run() {
         std::vector<CallExpr*> calls;
@@ -265,7 +270,7 @@ class ClassIntegrators {
             if (auto found = call ? names_.find(call->name) : names_.end(); found != names_.end())
                 call->name = found->second;
         };
-        for (Function* function : ast_.functions) {
+        for (Function* function : functions_) {
             auto found = names_.find(function->name);
             if (found == names_.end()) continue;
             function->name = found->second;
@@ -284,6 +289,7 @@ class ClassIntegrators {
     Reporter& reporter_;
     ShaderDefinition& shader_;
     ClassDefinition& class_;
+    std::span<Function* const> functions_;  // of its source
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
     std::set<std::string_view> said_;
     std::set<std::string_view> handles_;
@@ -291,13 +297,26 @@ class ClassIntegrators {
 
 }  // namespace
 
-void bind_integrators(Ast& ast, Reporter& reporter) {
-    for (ShaderDefinition* shader : ast.shaders)
-        if (shader->shader_class) ClassIntegrators(ast, reporter, *shader).run();
-    std::erase_if(ast.functions, [](const Function* f) {
+namespace {
+
+// Those that no class has adopted are not looked at.
+void drop_integrators(std::vector<Function*>& functions) {
+    std::erase_if(functions, [](const Function* f) {
         return f->name.find(' ') != f->name.npos || f->name.starts_with("integrate_direct") ||
                f->name.starts_with("integrate_indirect");
     });
+}
+
+}  // namespace
+
+void bind_integrators(Ast& ast, Reporter& reporter, std::span<Unit> units) {
+    for (ShaderDefinition* shader : ast.shaders)
+        if (shader->shader_class) ClassIntegrators(ast, reporter, *shader, ast.functions).run();
+    for (size_t k = 1; k < units.size(); ++k)
+        if (units[k].shader->shader_class)
+            ClassIntegrators(ast, reporter, *units[k].shader, units[k].functions).run();
+    drop_integrators(ast.functions);
+    for (Unit& unit : units) drop_integrators(unit.functions);
 }
 
 }  // namespace kinora::rsl
