@@ -77,7 +77,7 @@ void arrayequal(LowerCall& c) {
 // Element j of the n that element i of an array of structs holds, in the array of all; -1: none.
 void elementof(LowerCall& c) {
     auto& b = c.b;
-    Value i = b.floor(c.f1(0)), n = c.f1(1), j = b.floor(c.f1(2));
+    Value i = b.floor(c.f(0)), n = c.f(1), j = b.floor(c.f(2));
     Value inside = b.logical_and(b.le(b.f(0), j), b.lt(j, n));
     c.set(b.select(inside, b.add(b.mul(i, n), j), b.f(-1)));
 }
