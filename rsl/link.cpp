@@ -65,7 +65,7 @@ std::unique_ptr<Shader> link_as(ClassForm form, const std::vector<LinkedSource>&
         Parser(*ast, reporter, first).run();
         ShaderDefinition* shader = choose(*ast, reporter, shaders, one, first);
         if (!shader || reporter.errors() > 0) return nullptr;
-        units.push_back({one.handle, shader, ast->functions, first, one.texts, one.counts});
+        units.push_back({one.handle, shader, ast->functions, first, one.texts, one.counts, {}, {}});
         std::vector<std::string> handles;
         for (const Symbol* parameter : shader->parameters)
             if (parameter->handle && one.texts.contains(parameter->name))
