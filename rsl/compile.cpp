@@ -8,6 +8,7 @@
 #include "rsl/compile_p.h"
 #include "rsl/objects/integrators.h"
 #include "rsl/objects/objects.h"
+#include "rsl/objects/sample_pairs.h"
 #include "rsl/syntax/parser.h"
 #include "rsl/text/preprocess.h"
 #include "rsl/text/reporter.h"
@@ -59,6 +60,26 @@ bool lacks_text(const Diagnostics& diagnostics, size_t first) {
     });
 }
 
+bool can_displace(const ShaderDefinition& shader) {
+    return shader.shader_class &&
+           std::any_of(shader.shader_class->methods.begin(), shader.shader_class->methods.end(),
+                       [](const Function* method) { return method->name == "displacement"; });
+}
+
+std::vector<std::unique_ptr<Shader>> compile_as(ClassForm form, const ShaderSource& source,
+                                                const CompileOptions& options,
+                                                Diagnostics& diagnostics) {
+    auto ast = std::make_shared<Ast>();
+    Reporter reporter(diagnostics, ast->tokens, options.max_errors);
+    size_t before = diagnostics.findings().size();
+    Preprocessor(options, diagnostics, ast->tokens, reporter).run(source);
+    if (ast->tokens.truncated) return {};
+    Parser parser(*ast, reporter);
+    if (lacks_text(diagnostics, before)) parser.recovery().lose_everything();
+    parser.run();
+    return finish_compiling(ast, reporter, options, parser.recovery(), {}, form);
+}
+
 }  // namespace
 
 TokenStream preprocess(const ShaderSource& source, const CompileOptions& options,
@@ -82,9 +103,13 @@ std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>
                                                       Reporter& reporter,
                                                       const CompileOptions& options,
                                                       const ParseRecovery& recovery,
-                                                      std::vector<Unit> units) {
-    bind_integrators(*ast, reporter);
-    if (!expand_objects(*ast, reporter, std::move(units))) return {};
+                                                      std::vector<Unit> units,
+                                                      ClassForm form) {
+    if (form == ClassForm::OnlyDisplacement)
+        for (ShaderDefinition* shader : ast->shaders) shader->only_displaces = can_displace(*shader);
+    bind_integrators(*ast, reporter, units);
+    bind_sample_pairs(*ast, reporter, units);
+    if (!expand_objects(*ast, reporter, std::move(units), options.counts)) return {};
     Checker(*ast, reporter, options, recovery).run();
     if (ast->shaders.empty() && reporter.errors() == 0) {
         Finding& finding = reporter.report(Code::RSL_NO_SHADER, ast->tokens.tokens[0]);
@@ -99,15 +124,17 @@ std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>
 std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
                                              const CompileOptions& options,
                                              Diagnostics& diagnostics) {
-    auto ast = std::make_shared<Ast>();
-    Reporter reporter(diagnostics, ast->tokens, options.max_errors);
-    size_t before = diagnostics.findings().size();
-    Preprocessor(options, diagnostics, ast->tokens, reporter).run(source);
-    if (ast->tokens.truncated) return {};
-    Parser parser(*ast, reporter);
-    if (lacks_text(diagnostics, before)) parser.recovery().lose_everything();
-    parser.run();
-    return finish_compiling(ast, reporter, options, parser.recovery(), {});
+    auto shaders = compile_as(ClassForm::Whole, source, options, diagnostics);
+    if (std::none_of(shaders.begin(), shaders.end(),
+                     [](const auto& shader) { return shader->definition->displaces; }))
+        return shaders;
+    Diagnostics unheard;  // all has been said
+    unheard.files = diagnostics.files;
+    for (auto& displacement : compile_as(ClassForm::OnlyDisplacement, source, options, unheard))
+        for (auto& shader : shaders)
+            if (shader->name == displacement->name && shader->definition->displaces)
+                shader->displacement = std::move(displacement);
+    return shaders;
 }
 
 std::vector<std::unique_ptr<Shader>> compile_file(const std::string& path,

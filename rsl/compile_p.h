@@ -12,11 +12,15 @@
 
 namespace kinora::rsl {
 
+// Of classes that have displacement(), what is compiled.
+enum class ClassForm { Whole, OnlyDisplacement };
+
 // What is left to do for a tree, whose parts have been read. Empty after an error.
 std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>& ast,
                                                       Reporter& reporter,
                                                       const CompileOptions& options,
                                                       const ParseRecovery& recovery,
-                                                      std::vector<Unit> units);
+                                                      std::vector<Unit> units,
+                                                      ClassForm form = ClassForm::Whole);
 
 }  // namespace kinora::rsl

@@ -5,6 +5,7 @@
 
 #include "rsl/compile_p.h"
 #include "rsl/objects/handle_sets.h"
+#include "rsl/objects/open_arrays.h"
 #include "rsl/syntax/parser.h"
 #include "rsl/text/preprocess.h"
 #include "rsl/text/reporter.h"
@@ -47,8 +48,10 @@ std::shared_ptr<const std::string> kept_text(const std::vector<LinkedPart>& part
 
 }  // namespace
 
-std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
-                                       const CompileOptions& options, Diagnostics& diagnostics) {
+namespace {
+
+std::unique_ptr<Shader> link_as(ClassForm form, const std::vector<LinkedSource>& sources,
+                                const CompileOptions& options, Diagnostics& diagnostics) {
     auto ast = std::make_shared<Ast>();
     Reporter reporter(diagnostics, ast->tokens, options.max_errors);
     std::vector<Unit> units;
@@ -62,13 +65,13 @@ std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
         Parser(*ast, reporter, first).run();
         ShaderDefinition* shader = choose(*ast, reporter, shaders, one, first);
         if (!shader || reporter.errors() > 0) return nullptr;
-        units.push_back({one.handle, shader, ast->functions, first, one.texts, {}, {}});
+        units.push_back({one.handle, shader, ast->functions, first, one.texts, one.counts, {}, {}});
         std::vector<std::string> handles;
         for (const Symbol* parameter : shader->parameters)
             if (parameter->handle && one.texts.contains(parameter->name))
                 handles.emplace_back(parameter->name);
         parts.push_back({one.handle, std::string(shader->name), one.texts, std::move(handles),
-                         kept_text(parts, one.source.text), one.source.map, first});
+                         kept_text(parts, one.source.text), one.source.map, first, one.counts});
     }
     if (units.size() > kMostUnits) {
         reporter.report(Code::RSL_TOO_MANY_CO_SHADERS, ast->tokens.tokens[0], units.size() - 1,
@@ -77,10 +80,31 @@ std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
     }
     ast->shaders = {units[0].shader};
     ast->functions = units[0].functions;
-    auto linked = finish_compiling(ast, reporter, options, ParseRecovery(), std::move(units));
+    auto linked = finish_compiling(ast, reporter, options, ParseRecovery(), std::move(units), form);
     if (linked.empty()) return nullptr;
     linked[0]->parts = std::move(parts);
     return std::move(linked[0]);
+}
+
+}  // namespace
+
+std::unique_ptr<Shader> compile_linked(const std::vector<LinkedSource>& sources,
+                                       const CompileOptions& options, Diagnostics& diagnostics) {
+    auto linked = link_as(ClassForm::Whole, sources, options, diagnostics);
+    if (!linked || !linked->definition->displaces) return linked;
+    Diagnostics unheard;  // all has been said
+    unheard.files = diagnostics.files;
+    linked->displacement = link_as(ClassForm::OnlyDisplacement, sources, options, unheard);
+    return linked;
+}
+
+bool other_lengths(const Shader& shader, const LinkCounts& counts) {
+    return std::ranges::any_of(shader.definition->open_arrays, [&](const Symbol* parameter) {
+        auto bound = counts.find(parameter->name);
+        if (bound == counts.end()) return false;
+        std::optional<int> length = open_length(*parameter, bound->second);
+        return length && *length != parameter->type.array_length;
+    });
 }
 
 bool knows_co_shaders(const Shader& shader) {
@@ -110,7 +134,8 @@ bool may_mean(const Shader& shader, std::string_view handle) {
 std::vector<LinkedSource> sources_of(const std::vector<LinkedPart>& parts) {
     std::vector<LinkedSource> sources;
     for (const LinkedPart& part : parts)
-        sources.push_back({part.handle, {*part.text, part.map}, part.shader, part.texts});
+        sources.push_back({part.handle, {*part.text, part.map}, part.shader, part.texts,
+                           part.counts});
     return sources;
 }
 

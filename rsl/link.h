@@ -14,6 +14,7 @@ struct LinkedSource {
     ShaderSource source;
     std::string shader;  // its name; "": the first of the source
     LinkTexts texts;     // what decides which shaders are called
+    LinkCounts counts = {};
 };
 
 // The first is the shader itself, the others are its co-shaders, whose parameters it gets as
@@ -28,6 +29,9 @@ std::vector<LinkedSource> sources_of(const std::vector<LinkedPart>& parts);
 // stood in that text and do now. Null after an error.
 std::unique_ptr<Shader> link_again(const Shader& linked, const ShaderSource& edited,
                                    const CompileOptions& options, Diagnostics& diagnostics);
+
+// Whether a parameter of open length, "T a[]", is another length than that bound to it.
+bool other_lengths(const Shader& shader, const LinkCounts& counts);
 
 // Whether its source speaks of other shaders, so that linking it can change it.
 bool knows_co_shaders(const Shader& shader);

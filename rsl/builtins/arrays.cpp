@@ -74,6 +74,14 @@ void arrayequal(LowerCall& c) {
     c.set(c.e.flag(same));
 }
 
+// Element j of the n that element i of an array of structs holds, in the array of all; -1: none.
+void elementof(LowerCall& c) {
+    auto& b = c.b;
+    Value i = b.floor(c.f(0)), n = c.f(1), j = b.floor(c.f(2));
+    Value inside = b.logical_and(b.le(b.f(0), j), b.lt(j, n));
+    c.set(b.select(inside, b.add(b.mul(i, n), j), b.f(-1)));
+}
+
 }  // namespace lower_arrays
 
 namespace ref {
@@ -132,6 +140,12 @@ void arrayequal(RefCall<Real>& c) {
     c.set(Dual<Real>(Real(c.eval.decide(same))));
 }
 
+template <class Real>
+void elementof(RefCall<Real>& c) {
+    Real i = std::floor(c.f(0).x), n = c.f(1).x, j = std::floor(c.f(2).x);
+    c.set(Dual<Real>(0 <= j && j < n ? Real(i * n + j) : Real(-1)));
+}
+
 }  // namespace
 }  // namespace ref
 
@@ -155,6 +169,8 @@ const Builtin kRows[] = {
      KINORA_RSL_REF(ref::push), kSetsLength, 0, "Appends an element to a resizable array."},
     {"pop", "f=F[] c=C[] p=P[] v=V[] n=N[] m=M[] s=S[]", lower::pop, KINORA_RSL_REF(ref::pop),
      kSetsLength, 0, "Takes the last element off a resizable array and returns it."},
+    {"elementof", "f=fff", lower::elementof, KINORA_RSL_REF(ref::elementof), kForHeaders, 0,
+     "Where a[i]->list[j] stands in the array of all lists."},
     {"arrayequal", "f=f[]f[] f=c[]c[] f=p[]p[] f=v[]v[] f=n[]n[] f=m[]m[] f=s[]s[]",
      lower::arrayequal, KINORA_RSL_REF(ref::arrayequal), kVaryingResult | kForHeaders, 0,
      "What a == b of arrays becomes."},

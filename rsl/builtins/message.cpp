@@ -161,6 +161,36 @@ void isindirectray(LowerCall& c) {
                                    b.i(-1), b.i(1), rng_input(b)});
     c.set(c.e.flag(b.op(jit::Op::IEq, b.bits(answer[1]), b.i(intern("diffuse")))));
 }
+// What a class's displacement() does where its surface is shaded: see docs/displacement.md.
+void displaced(LowerCall& c) {
+    const Shader* own = c.context.layer->shader->displacement.get();
+    bool done = std::any_of(c.context.layers.begin(), c.context.layers.end(),
+                            [&](const Layer& layer) { return layer.done && layer.shader == own; });
+    c.set(c.f(done ? 1.0f : c.context.options.moves_points ? 2.0f : 0.0f));
+}
+void seenopacity(LowerCall& c) {
+    auto& b = c.b;
+    float threshold = c.context.options.opacity_threshold;
+    Value seen = b.m(false);
+    for (Value channel : c.v3(0)) {
+        Value hidden =
+            threshold > 0 ? b.le(channel, b.f(threshold)) : b.eq(channel, b.f(0));
+        seen = b.logical_or(seen, b.logical_not(hidden));
+    }
+    c.set(c.e.flag(seen));
+}
+// 1 behind the ray of a mirror or lens, 2 for indirect diffuse light, else 0.
+void raykind(LowerCall& c) {
+    auto& b = c.b;
+    c.context.out.uses_rng = true;
+    std::vector<Value> answer = c.services.call(
+        Service::query, std::array{b.i(int32_t(QueryKind::RayInfo)), b.i(intern("type")), b.i('s'),
+                                   b.i(-1), b.i(1), rng_input(b)});
+    auto is = [&](const char* type) {
+        return b.op(jit::Op::IEq, b.bits(answer[1]), b.i(intern(type)));
+    };
+    c.set(b.select(is("diffuse"), b.f(2), b.select(is("specular"), b.f(1), b.f(0))));
+}
 // A grid of one point.
 void itself(LowerCall& c) {
     c.set(c.f(0));
@@ -245,6 +275,26 @@ void isindirectray(RefCall<Real>& c) {
         Service::query,
         {double(int(QueryKind::RayInfo)), double(intern("type")), double('s'), -1, 1, 0});
     c.set(Dual<Real>(Real(at(answer, 1) == double(intern("diffuse")))));
+}
+
+template <class Real>
+void raykind(RefCall<Real>& c) {
+    std::vector<double> answer = c.eval.service(
+        Service::query,
+        {double(int(QueryKind::RayInfo)), double(intern("type")), double('s'), -1, 1, 0});
+    double type = at(answer, 1);
+    int kind = type == double(intern("diffuse")) ? 2 : type == double(intern("specular")) ? 1 : 0;
+    c.set(Dual<Real>(Real(kind)));
+}
+template <class Real>
+void displaced(RefCall<Real>& c) {
+    c.set(Dual<Real>(0));
+}
+template <class Real>
+void seenopacity(RefCall<Real>& c) {
+    bool seen = false;
+    for (const auto& channel : c.v(0)) seen = seen || channel.x != 0;
+    c.set(Dual<Real>(Real(seen)));
 }
 
 template <class Real>
@@ -347,6 +397,18 @@ const Builtin kRows[] = {
     {"lighthandle", "f=", lower::lighthandle, KINORA_RSL_REF(ref::lighthandle),
      kMessage | kVaryingResult | kForHeaders, 0,
      "In illuminance: the light as getlights() gives it, a value of type shader."},
+    {"displacementvalue", kAnyVariable,
+     lower::of_layer<ShaderKind::Displacement, QueryKind::Displacement>,
+     KINORA_RSL_REF(ref::displacement_message), kMessage | kVaryingResult | kForHeaders, 0,
+     "displacement(): what a class's displacement left for its surface."},
+    {"displaced", "f=", lower::displaced, KINORA_RSL_REF(ref::displaced), kMessage | kForHeaders, 0,
+     "1 where a class's displacement() has moved the vertices, 2 where it moves P, 0 where it bends "
+     "N."},
+    {"seenopacity", "f=c", lower::seenopacity, KINORA_RSL_REF(ref::seenopacity), kForHeaders, 0,
+     "1 where a class's opacity() leaves anything above the threshold."},
+    {"raykind", "f=", lower::raykind, KINORA_RSL_REF(ref::raykind),
+     kMessage | kVaryingResult | kForHeaders, 0,
+     "1 behind the ray of a mirror or lens, 2 for indirect diffuse light, else 0."},
     {"nullcall", "f=s", lower::nullcall, KINORA_RSL_REF(ref::nullcall), kService | kForHeaders, 0,
      "What a call through a shader that is null becomes: reports the method's name and gives 0."},
     {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername),

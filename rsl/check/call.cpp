@@ -5,6 +5,7 @@
 #include "rsl/check/convert.h"
 #include "rsl/check/optional_parameters.h"
 #include "rsl/model/pairs.h"
+#include "rsl/syntax/copy_tree.h"
 
 namespace kinora::rsl {
 
@@ -46,6 +47,34 @@ void CallBinder::group_source(CallExpr& e) {
         e.args = ast_.arena.copy(args);
         return;
     }
+}
+
+// Elements of arrays are channels of their own: "a", a of two is "a[0]", a[0], "a[1]", a[1].
+void CallBinder::split_channels(CallExpr& e) {
+    constexpr size_t kFirstPair = 3;
+    if (e.name != "texture3d" && e.name != "bake3d") return;
+    std::vector<Expr*> args;
+    for (size_t k = 0; k < e.args.size(); ++k) {
+        args.push_back(e.args[k]);
+        const auto* name = as_if<StringExpr>(e.args[k]);
+        bool pair = k >= kFirstPair && name && k + 1 < e.args.size();
+        const auto* value = pair ? as_if<VariableExpr>(e.args[k + 1]) : nullptr;
+        const Symbol* symbol = value ? scopes_.find_variable(value->name) : nullptr;
+        if (!symbol || symbol->type.array_length < 1 || symbol->resizable) continue;
+        args.pop_back();
+        for (int element = 0; element < symbol->type.array_length; ++element) {
+            auto* channel = ast_.make<StringExpr>(name->span);
+            channel->value = ast_.arena.copy(fmt::format("{}[{}]", name->value, element));
+            auto* number = ast_.make<NumberExpr>(value->span);
+            number->value = element;
+            auto* item = ast_.make<IndexExpr>(value->span);
+            item->array = copy_tree(ast_, *value);
+            item->index = number;
+            args.insert(args.end(), {channel, item});
+        }
+        ++k;
+    }
+    e.args = ast_.arena.copy(args);
 }
 
 void CallBinder::begin(CallExpr& e, Callee callee) {

@@ -39,6 +39,7 @@ class CallBinder {
     // "source", p1, p2, p3, p4 among the arguments of shadow(): the points become one array, so
     // that pairs are pairs.
     void group_source(CallExpr& e);
+    void split_channels(CallExpr& e);
 
     void begin(CallExpr& e, Callee callee);
     Parameter parameter(const CallExpr& e, size_t index) const;

@@ -218,7 +218,10 @@ void ExpressionChecker::check(Expr*& slot, CallExpr& e, BaseType wanted) {
     }
     bool builtin = functions.empty() && !find_builtin(e.name).empty();
     if (builtin && calls_.take_channel(e)) check_number(e.channel, "a channel");
-    if (builtin) calls_.group_source(e);
+    if (builtin) {
+        calls_.group_source(e);
+        calls_.split_channels(e);
+    }
     for (Expr*& argument : e.args) {
         if (auto* corners = as_if<ArrayLiteralExpr>(argument); corners && corners->type.is_array())
             for (Expr*& corner : corners->items)

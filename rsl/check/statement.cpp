@@ -46,12 +46,7 @@ void StatementChecker::declare(Function& f) {
 }
 
 void StatementChecker::check_initial(Symbol& symbol) {
-    bool open = symbol.type.array_length == 0;
     if (symbol.length) expressions_.convert_to(symbol.length, {BaseType::Float, -1}, "a length");
-    if (open && symbol.kind == SymbolKind::Parameter) {
-        reporter_.report(Code::RSL_OPEN_ARRAY, symbol.span, symbol.name);
-        symbol.type.array_length = 1;
-    }
     if (symbol.initial)
         expressions_.convert_to(symbol.initial, symbol.type, fmt::format("'{}'", symbol.name));
 }

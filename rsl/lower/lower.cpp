@@ -182,6 +182,7 @@ class Stack {
         writer_.run(layer);
         if (context_.failed) return;
         left_N_ = globals_.read(Global::N);
+        left_P_ = globals_.read(Global::P);
         if (displacement) {
             N_ = left_N_, P_ = globals_.read(Global::P);
             have_N_ = have_P_ = true;
@@ -242,7 +243,9 @@ class Stack {
         context_.out.moves_P = have_P_ && !is_input(b_, P_.v3(), Global::P);
         context_.out.bends_N = have_N_ && !is_input(b_, N_.v3(), Global::N);
         if (context_.options.want_N) output(Global::N, left_N_);
-        if (context_.options.want_P) output(Global::P, have_P_ ? P_ : globals_.input(Global::P));
+        bool left = context_.options.moves_points && have_surface_;
+        if (context_.options.want_P)
+            output(Global::P, left ? left_P_ : have_P_ ? P_ : globals_.input(Global::P));
     }
 
     // Output parameters wanted by the film or by lightsource(): the topmost layer's.
@@ -310,7 +313,7 @@ class Stack {
     LayerWriter& writer_;
     Lowered N_, P_;  // as the displacements left them
     bool have_N_ = false, have_P_ = false;
-    Lowered left_N_;
+    Lowered left_N_, left_P_;
     const Layer* bends_ = nullptr;  // the last layer, if it is one whose current is the object's
     V3 Ci_{}, Oi_{};
     Value alpha_ = jit::kNone;  // imagers

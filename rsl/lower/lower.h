@@ -27,6 +27,11 @@ struct LowerOptions {
     // Where a surface's Oi is 0 in all channels, a Ci that is multiplied by it is +0 (never NaN),
     // and what only that Ci needs is not run.
     bool skip_transparent = false;
+    // Classes: where opacity() leaves no channel above it, the point is a hole, and the rest is not
+    // run.
+    float opacity_threshold = 0;
+    // Points are numbers of no mesh: a class's displacement() moves P, and nothing moves it back.
+    bool moves_points = false;
     std::vector<std::string> aovs;      // names of output parameters wanted
     std::vector<std::string> messages;  // light shaders: parameters that some lightsource() reads
     // Known coordinate systems besides the standard ones: what else is named means "shader". Null:

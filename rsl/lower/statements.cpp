@@ -75,20 +75,22 @@ void Statements::run_statements(std::span<Stmt* const> body) {
 }
 
 void Statements::branch(const IfStmt& stmt) {
-    if (stmt.behind_opacity && !context_.options.want_Ci) return;
+    // Behind opacity, where opacity alone is wanted: what is under the threshold is a hole there too.
+    bool skips = stmt.behind_opacity && !context_.options.want_Ci;
+    if (skips && (!stmt.no || context_.options.opacity_threshold <= 0)) return;
     Value condition = tree_.value(*stmt.condition);
     bool known;
     if (b_.constant_m(condition, &known)) {
-        if (known)
+        if (known && !skips)
             statement(*stmt.yes);
-        else if (stmt.no)
+        else if (!known && stmt.no)
             statement(*stmt.no);
         return;
     }
     Value before = e_.running;
     Value yes = b_.logical_and(before, condition);
     Value no = b_.and_not(before, condition);
-    regions_.guarded(yes, [&] { statement(*stmt.yes); });
+    if (!skips) regions_.guarded(yes, [&] { statement(*stmt.yes); });
     if (!stmt.no) return;
     // What is left of the first side and what the second one leaves, together.
     Value after_yes = e_.running;

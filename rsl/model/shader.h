@@ -34,6 +34,9 @@ struct ShaderParameter {
 // Texts that a parameter is bound to: of a string, or handles for one of type shader.
 using LinkTexts = std::map<std::string, std::vector<std::string>, std::less<>>;
 
+// How many numbers, or texts, a parameter is bound to: that decides the length of "T a[]".
+using LinkCounts = std::map<std::string, size_t, std::less<>>;
+
 // One of the shaders that a linked shader was made of (rsl/link.h), as it was written.
 struct LinkedPart {
     std::string handle;  // "" of the shader itself
@@ -43,6 +46,7 @@ struct LinkedPart {
     std::shared_ptr<const std::string> text;     // parts of one text share it
     SourceMap map;
     uint32_t first_token = 0;  // in the Ast
+    LinkCounts counts = {};
 };
 
 // A checked shader. Shaders of one source share its Ast.
@@ -56,6 +60,9 @@ struct Shader {
     std::vector<const GlobalInfo*> globals_written;
     std::vector<const Function*> functions;  // those it reaches
     std::vector<LinkedPart> parts;  // of a linked shader: itself, then all that it was given
+    // Of a surface of a class that has displacement() too: the same class as a displacement, which
+    // moves the vertices before the surface is seen.
+    std::shared_ptr<const Shader> displacement = nullptr;
 };
 
 }  // namespace kinora::rsl

@@ -6,6 +6,7 @@
 
 #include "rsl/objects/join_units.h"
 #include "rsl/objects/objects.h"
+#include "rsl/objects/open_arrays.h"
 
 namespace kinora::rsl {
 
@@ -225,7 +226,10 @@ bool report_cycle(const Ast& ast, Reporter& reporter, const std::vector<Unit>& u
 
 }  // namespace
 
-bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units) {
+bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units,
+                    const BoundCounts& counts) {
+    for (size_t k = 1; k < units.size(); ++k) make_class(ast, units[k]);
+    set_open_arrays(ast, units, counts);
     if (units.size() < 2 && !has_objects(ast)) return true;
     int errors = reporter.errors();
     if (!check_structs(ast, reporter)) return false;
@@ -234,7 +238,6 @@ bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units) {
         units[0].functions = ast.functions;
         if (ast.shaders.size() == 1) units[0].shader = ast.shaders[0];
     }
-    for (size_t k = 1; k < units.size(); ++k) make_class(ast, units[k]);
     for (Unit& unit : units) list_members(unit);
     HandleSets sets(ast, units);
     if (report_cycle(ast, reporter, units, sets.cycle())) return false;

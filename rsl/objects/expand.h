@@ -79,7 +79,9 @@ class ObjectExpander {
     // "a->b->c" from the variable a on; null where a is no struct, or has no such member.
     const Symbol* resolve(std::string_view path, const SourceSpan& span, StructValue* value);
     StructValue struct_value(Expr& e);
-    std::vector<Expr*> parts(const StructValue& value, const SourceSpan& span);
+    std::vector<Expr*> parts(const StructValue& value, const SourceSpan& span,
+                             Parts how = Parts::Whole);
+    int inner_length(const Expr& e) const;
     void want(std::string_view name, const StructDefinition* owner);
     std::string_view placed(std::string_view name) const;
 

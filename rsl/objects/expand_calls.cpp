@@ -31,6 +31,18 @@ void ObjectExpander::expr(Expr*& slot) {
             return variable(as<VariableExpr>(*slot));
         case ExprKind::Index: {
             auto& e = as<IndexExpr>(*slot);
+            auto* element = as_if<IndexExpr>(e.array);
+            if (int length = element ? inner_length(*element) : 0) {  // a[i]->list[j]
+                expr(element->array);
+                expr(element->index);
+                expr(e.index);
+                e.array = element->array;
+                e.index = flat_index(ast_, e.span, element->index, length, e.index);
+                return;
+            }
+            if (inner_length(e) > 0)
+                return void(report(Code::RSL_STRUCT_ARRAYS, e.span,
+                                   last_path(as<VariableExpr>(*e.array).name)));
             expr(e.array);
             return expr(e.index);
         }
@@ -127,6 +139,8 @@ bool ObjectExpander::object_call(CallExpr& e, std::vector<Expr*>& args) {
     if (value.array) return report(Code::RSL_STRUCT_AS_VALUE, object->span), false;
     std::vector<std::string_view> names;
     for (const Function* method : value.structure->methods) names.push_back(method->name);
+    if (value.index && has_arrays(*value.structure))
+        return report(Code::RSL_STRUCT_ARRAYS, object->span, value.structure->name), false;
     for (const Candidate& candidate : candidates_)
         if (candidate.owner == value.structure && candidate.name == e.name) {
             args = parts(value, object->span);
@@ -142,6 +156,14 @@ bool ObjectExpander::object_call(CallExpr& e, std::vector<Expr*>& args) {
 // They take arrays of handles as they take others.
 constexpr std::string_view kArrayFunctions[] = {"arraylength", "capacity", "resize",
                                                 "reserve",     "push",     "pop"};
+
+// A member that is no array, if there is one: as many of them as elements.
+size_t plain_leaf(const StructDefinition& structure) {
+    std::vector<Leaf> leaves = leaves_of(structure);
+    for (size_t k = 0; k < leaves.size(); ++k)
+        if (!leaves[k].member->type.is_array()) return k;
+    return 0;
+}
 
 // Arguments of struct types become their members; `results` are behind them all.
 void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
@@ -178,9 +200,11 @@ void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
         }
         std::vector<Expr*> members = parts(value, argument->span);
         if (value.array && (e.name == "arraylength" || e.name == "capacity")) {
-            args.push_back(members[0]);
+            args.push_back(members[plain_leaf(*value.structure)]);
             continue;
         }
+        if (value.index && has_arrays(*value.structure))
+            report(Code::RSL_STRUCT_ARRAYS, argument->span, value.structure->name);
         mangled += " " + std::string(value.structure->name);
         args.insert(args.end(), members.begin(), members.end());
     }

@@ -99,13 +99,40 @@ const Symbol* ObjectExpander::resolve(std::string_view path, const SourceSpan& s
 }
 
 // The members of a value; an error where they are too many.
-std::vector<Expr*> ObjectExpander::parts(const StructValue& value, const SourceSpan& span) {
+std::vector<Expr*> ObjectExpander::parts(const StructValue& value, const SourceSpan& span,
+                                         Parts how) {
     bool room = copied_ <= kMostCopiedNodes;
-    std::vector<Expr*> made = parts_of(ast_, value, span, &copied_);
+    std::vector<Expr*> made = parts_of(ast_, value, span, &copied_, how);
     if (room && copied_ > kMostCopiedNodes)
         report(Code::RSL_TOO_DEEP, span, fmt::format("{} copied members", kMostCopiedNodes));
-    made.resize(leaves_of(*value.structure).size(), TreeBuilder(ast_, span).number(0));
+    made.resize(count_parts(*value.structure, how), TreeBuilder(ast_, span).number(0));
     return made;
+}
+
+// Elements that each element of an array of structs holds in the array of this name, as in
+// a[i]->list; 0 for all else.
+int ObjectExpander::inner_length(const Expr& e) const {
+    const auto* element = as_if<IndexExpr>(&e);
+    const auto* named = as_if<VariableExpr>(element ? element->array : &e);
+    if (!named || !is_member(named->name)) return 0;
+    std::string_view path = named->name, first = first_name(path);
+    const Symbol* symbol = first == "this" ? nullptr : find(first);
+    if (!symbol && first != "this") symbol = member_of_object(first);
+    const StructDefinition* structure = symbol ? symbol->structure
+                                        : first == "this" ? owner_
+                                                          : nullptr;
+    bool array = symbol && symbol->type.is_array();
+    for (path.remove_prefix(first.size()); !path.empty() && structure;) {
+        path.remove_prefix(kArrow.size());
+        std::string_view next = first_name(path);
+        symbol = find_member(*structure, next);
+        if (!symbol) return 0;
+        path.remove_prefix(next.size());
+        if (path.empty()) return array ? std::max(symbol->type.array_length, 0) : 0;
+        array = array || symbol->type.is_array();
+        structure = symbol->structure;
+    }
+    return 0;
 }
 
 // What an expression names of struct type; nothing where it is plain.

@@ -1,6 +1,8 @@
 // rsl/objects/expand_statements.cpp: statements with values of struct types, member by member.
 #include "rsl/objects/expand.h"
 
+#include <cmath>
+
 #include "rsl/syntax/copy_tree.h"
 
 namespace kinora::rsl {
@@ -145,11 +147,8 @@ void ObjectExpander::declaration(DeclareStmt& s, Stmts& out) {
             continue;
         }
         if (symbol->length) expr(symbol->length);
-        if (symbol->type.is_array())
-            for (const Leaf& leaf : leaves_of(*symbol->structure))
-                if (leaf.member->type.is_array())
-                    return void(
-                        report(Code::RSL_STRUCT_ARRAYS, symbol->span, symbol->structure->name));
+        if (symbol->type.is_array() && has_open_arrays(*symbol->structure))
+            return void(report(Code::RSL_STRUCT_ARRAYS, symbol->span, symbol->structure->name));
         std::vector<Symbol*> members = expanded(ast_, *symbol);
         for (Symbol* member : members)
             if (member->initial) expr(member->initial);
@@ -182,7 +181,9 @@ bool ObjectExpander::assign_struct(AssignExpr& e, Stmts& out) {
     if (auto* node = as_if<CallExpr>(e.value);
         node && handles_.is_call(*node) && !handles_.resolve(*node))
         return true;
-    std::vector<Expr*> targets = parts(target, e.target->span);
+    bool apart = target.index && has_arrays(*target.structure);
+    std::vector<Expr*> targets =
+        parts(target, e.target->span, apart ? Parts::Elements : Parts::Whole);
     if (const Function* giver = function_giving_struct(*e.value);
         giver && e.op == Op::None && giver->result_structure == target.structure) {
         // Through a variable of its own: the target may be among the arguments.
@@ -196,7 +197,8 @@ bool ObjectExpander::assign_struct(AssignExpr& e, Stmts& out) {
         auto& node = as<CallExpr>(*e.value);
         call(node, parts(result, e.span));
         out.push_back(TreeBuilder(ast_, e.span).effect(&node));
-        assign_parts(targets, parts(result, e.span), e.span, out);
+        assign_parts(targets, parts(result, e.span, apart ? Parts::Elements : Parts::Whole), e.span,
+                     out);
         return true;
     }
     StructValue value = struct_value(*e.value);
@@ -204,7 +206,12 @@ bool ObjectExpander::assign_struct(AssignExpr& e, Stmts& out) {
         report(Code::RSL_STRUCT_VALUE, e.value->span, target.structure->name);
         return true;
     }
-    assign_parts(targets, parts(value, e.value->span), e.span, out);
+    if (!apart && value.index && has_arrays(*value.structure)) {
+        apart = true;
+        targets = parts(target, e.target->span, Parts::Elements);
+    }
+    assign_parts(targets, parts(value, e.value->span, apart ? Parts::Elements : Parts::Whole),
+                 e.span, out);
     return true;
 }
 
@@ -215,22 +222,32 @@ bool ObjectExpander::array_call(CallExpr& e, Stmts& out) {
     StructValue array = struct_value(*e.args[0]);
     if (!array.structure || !array.array) return false;
     TreeBuilder make(ast_, e.span);
-    std::vector<Expr*> arrays = parts(array, e.args[0]->span), values(arrays.size());
-    if (counts && e.args.size() > 1) {
-        expr(e.args[1]);
-        for (Expr*& value : values) value = copy_tree(ast_, *e.args[1]);
-    } else if (e.name == "push" && e.args.size() > 1) {
+    std::vector<Expr*> arrays = parts(array, e.args[0]->span), values;
+    Expr* count = counts && e.args.size() > 1 ? e.args[1] : nullptr;
+    if (count) expr(count);
+    if (e.name == "push" && e.args.size() > 1) {
         StructValue value = struct_value(*e.args[1]);
         if (value.structure != array.structure) {
             report(Code::RSL_STRUCT_VALUE, e.args[1]->span, array.structure->name);
             return true;
         }
-        values = parts(value, e.args[1]->span);
+        values = parts(value, e.args[1]->span, Parts::Elements);
     }
+    std::vector<Leaf> leaves = leaves_of(*array.structure);
+    size_t next = 0;
     for (size_t k = 0; k < arrays.size(); ++k) {
-        std::vector<Expr*> args{arrays[k]};
-        if (values[k]) args.push_back(values[k]);
-        out.push_back(make.effect(make.call(e.name, args)));
+        int each = std::max(leaves[k].member->type.array_length, 1);
+        Expr* all = count ? copy_tree(ast_, *count) : nullptr;
+        if (const auto* number = as_if<NumberExpr>(count); number && each > 1)
+            all = make.number(std::floor(number->value) * each);  // known: room for as many
+        else if (all && each > 1)
+            all = make.binary(Op::Multiply, make.call("floor", {all}), make.number(each));
+        for (int i = 0; i < (count ? 1 : each); ++i) {
+            std::vector<Expr*> args{i == 0 ? arrays[k] : copy_tree(ast_, *arrays[k])};
+            if (all) args.push_back(all);
+            if (next < values.size()) args.push_back(values[next++]);
+            out.push_back(make.effect(make.call(e.name, args)));
+        }
     }
     return true;
 }

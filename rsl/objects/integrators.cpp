@@ -16,14 +16,14 @@ namespace {
 // What a source calls, and the functions of integrators.h that it becomes a call of.
 struct Integrator {
     std::string_view name;
-    std::string_view function;
-    std::string_view keeping;  // where "materialsamples" are kept
+    std::string_view function;  // with "_of" of another shader, "_among" of listed lights, and
+                                // "_keeping" where "materialsamples" are kept
     std::string_view method;   // of the class, which the functions call
     size_t pairs;              // where the pairs begin
 };
 constexpr Integrator kIntegrators[] = {
-    {"directlighting", "integrate_direct", "integrate_direct_keeping", "evaluateSamples", 2},
-    {"indirectspecular", "integrate_indirect", "integrate_indirect_keeping", "generateSamples", 1},
+    {"directlighting", "integrate_direct", "evaluateSamples", 2},
+    {"indirectspecular", "integrate_indirect", "generateSamples", 1},
 };
 
 // Results of directlighting() in the order of the functions' parameters.
@@ -72,11 +72,17 @@ struct IntegratorArguments {
 
 class ClassIntegrators {
   public:
-    ClassIntegrators(Ast& ast, Reporter& reporter, ShaderDefinition& shader)
-        : ast_(ast), reporter_(reporter), shader_(shader), class_(*shader.shader_class) {}
+    ClassIntegrators(Ast& ast, Reporter& reporter, ShaderDefinition& shader,
+                     std::span<Function* const> functions)
+        : ast_(ast),
+          reporter_(reporter),
+          shader_(shader),
+          class_(*shader.shader_class),
+          functions_(functions) {}
 
     void run() {
         std::vector<CallExpr*> calls;
+        list_handles();
         for (Function* method : class_.methods) {
             calls.clear();
             auto collect = [&](Expr& e) {
@@ -107,38 +113,74 @@ class ClassIntegrators {
         });
     }
 
+    // Whether the expression is of type shader, or an array of them.
+    bool is_handle(const Expr& e) const {
+        const Expr* named = &e;
+        if (const auto* element = as_if<IndexExpr>(named)) named = element->array;
+        if (const auto* call = as_if<CallExpr>(named)) return call->name == "getshader";
+        const auto* variable = as_if<VariableExpr>(named);
+        return variable && handles_.contains(variable->name);
+    }
+
+    // Names of variables of type shader, wherever they are declared.
+    void list_handles() {
+        auto add = [&](const Symbol* symbol) {
+            if (symbol->handle) handles_.insert(symbol->name);
+        };
+        auto look = [&](Stmt* stmt, auto& self) -> void {
+            if (auto* declared = as_if<DeclareStmt>(stmt))
+                for (const Symbol* symbol : declared->symbols) add(symbol);
+            for_each_part(
+                *stmt, [](Expr*) {}, [&](Stmt* part) { self(part, self); });
+        };
+        for (const Symbol* parameter : shader_.parameters) add(parameter);
+        for (Stmt* member : class_.members) look(member, look);
+        for (Function* method : class_.methods) {
+            for (const Symbol* formal : method->parameters) add(formal);
+            look(method->body, look);
+        }
+    }
+
     // False after a finding.
     bool bind(const Integrator& row, CallExpr& call, std::string_view method) {
-        if (call.args.size() < row.pairs || !is_named(*call.args[0], "this"))
+        bool own = call.args.size() >= row.pairs && is_named(*call.args[0], "this");
+        if (call.args.size() < row.pairs || !(own || is_handle(*call.args[0])))
             return report(Code::RSL_2, call.span,
                           fmt::format("'{}()' of another shader than 'this'", row.name)),
                    false;
-        if (!has(row.method)) {
+        if (own && !has(row.method)) {
             report(Code::RSL_NO_SAMPLE_METHOD, call.span, row.name, shader_.name, row.method);
             return false;
         }
         IntegratorArguments given;
         if (!sort(row, call, &given)) return false;
         TreeBuilder make(ast_, call.span);
-        std::vector<Expr*> args{make.call(row.name, given.hints)};
+        std::vector<Expr*> args;
+        std::string function(row.function);
+        if (!own) args.push_back(call.args[0]), function += "_of";
         bool direct = row.pairs == 2;
         if (direct) {
             Expr* category = category_of(*call.args[1]);
-            if (!category) return false;
-            args.push_back(category);
+            if (!category && !is_handle(*call.args[1]))
+                return report(Code::RSL_2, call.args[1]->span,
+                              "directlighting() of lights other than getlights()'s"),
+                       false;
+            if (!category) args.push_back(call.args[1]), function += "_among";
+            args.push_back(make.call(row.name, given.hints));
+            args.push_back(category ? category : make.text(""));
             args.push_back(make.number(method != "specularlighting"));
             args.push_back(make.number(method != "diffuselighting"));
             for (Expr* result : given.results)
                 args.push_back(result ? result : make.variable(kUnwanted));
         } else {
+            args.push_back(make.call(row.name, given.hints));
             args.push_back(given.maxdist ? given.maxdist : make.number(1e30));
         }
-        bool keeps = given.samples && has("generateSamples");
+        bool keeps = given.samples && (!own || has("generateSamples"));
         if (keeps) args.push_back(given.samples);
         call.args = ast_.arena.copy(args);
-        call.name = bound_name(keeps ? row.keeping : row.function, row);
-        if (keeps) bound_name(row.function, row);
-        if (!direct) bound_name(row.keeping, row);
+        call.name = bound_name(function + (keeps ? "_keeping" : ""), row);
+        if (!direct) bound_name(function + "_keeping", row);
         return true;
     }
 
@@ -176,7 +218,7 @@ class ClassIntegrators {
     }
 
     // The category of the lights that getlights() gives: directly, or to the one variable named.
-    // Null after a finding.
+    // Null for other lists.
     Expr* category_of(Expr& lights) {
         const CallExpr* giver = call_of_getlights(&lights);
         if (const auto* variable = as_if<VariableExpr>(&lights)) giver = giver_of(variable->name);
@@ -185,7 +227,6 @@ class ClassIntegrators {
             if (kind && kind->value == "category") return copy_tree(ast_, *giver->args[1]);
         }
         if (giver && giver->args.empty()) return ast_.make<StringExpr>(lights.span);
-        report(Code::RSL_2, lights.span, "directlighting() of lights other than getlights()'s");
         return nullptr;
     }
 
@@ -215,8 +256,8 @@ class ClassIntegrators {
     }
 
     // The name of a function of integrators.h in the class. Findings print it up to the space.
-    std::string_view bound_name(std::string_view function, const Integrator& row) {
-        std::string_view& name = names_[function];
+    std::string_view bound_name(const std::string& function, const Integrator& row) {
+        std::string_view& name = names_[ast_.arena.copy(function)];
         if (name.empty()) name = ast_.arena.copy(fmt::format("{} {}", row.name, function));
         return name;
     }
@@ -229,7 +270,7 @@ class ClassIntegrators {
             if (auto found = call ? names_.find(call->name) : names_.end(); found != names_.end())
                 call->name = found->second;
         };
-        for (Function* function : ast_.functions) {
+        for (Function* function : functions_) {
             auto found = names_.find(function->name);
             if (found == names_.end()) continue;
             function->name = found->second;
@@ -248,19 +289,34 @@ class ClassIntegrators {
     Reporter& reporter_;
     ShaderDefinition& shader_;
     ClassDefinition& class_;
+    std::span<Function* const> functions_;  // of its source
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
     std::set<std::string_view> said_;
+    std::set<std::string_view> handles_;
 };
 
 }  // namespace
 
-void bind_integrators(Ast& ast, Reporter& reporter) {
-    for (ShaderDefinition* shader : ast.shaders)
-        if (shader->shader_class) ClassIntegrators(ast, reporter, *shader).run();
-    std::erase_if(ast.functions, [](const Function* f) {
+namespace {
+
+// Those that no class has adopted are not looked at.
+void drop_integrators(std::vector<Function*>& functions) {
+    std::erase_if(functions, [](const Function* f) {
         return f->name.find(' ') != f->name.npos || f->name.starts_with("integrate_direct") ||
                f->name.starts_with("integrate_indirect");
     });
+}
+
+}  // namespace
+
+void bind_integrators(Ast& ast, Reporter& reporter, std::span<Unit> units) {
+    for (ShaderDefinition* shader : ast.shaders)
+        if (shader->shader_class) ClassIntegrators(ast, reporter, *shader, ast.functions).run();
+    for (size_t k = 1; k < units.size(); ++k)
+        if (units[k].shader->shader_class)
+            ClassIntegrators(ast, reporter, *units[k].shader, units[k].functions).run();
+    drop_integrators(ast.functions);
+    for (Unit& unit : units) drop_integrators(unit.functions);
 }
 
 }  // namespace kinora::rsl

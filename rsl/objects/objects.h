@@ -12,7 +12,8 @@
 namespace kinora::rsl {
 
 // False if the source has errors that the later stages cannot go on after. Units, if given, are the
-// shader and its co-shaders: they become one shader, that of units[0].
-bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units = {});
+// shader and its co-shaders: they become one shader, that of units[0]. `counts`: open_arrays.h.
+bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units = {},
+                    const BoundCounts& counts = {});
 
 }  // namespace kinora::rsl

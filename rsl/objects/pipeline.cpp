@@ -2,6 +2,8 @@
 // pipeline, and its members are variables that live through it.
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "rsl/objects/expand.h"
 
@@ -22,6 +24,7 @@ class Pipeline {
         }
         std::optional<ShaderKind> kind = kind_of();
         shader_.kind = kind.value_or(ShaderKind::Surface);
+        shader_.displaces = kind == ShaderKind::Surface && has("displacement");
         shader_.co_shader = !kind;
         if (kind)
             for (const Function* method : shader_.shader_class->methods) judge(*method);
@@ -78,12 +81,15 @@ class Pipeline {
                   {"transformation", ShaderKind::Transformation},
                   {"displacement", ShaderKind::Displacement}};
     std::optional<ShaderKind> kind_of() const {
+        if (shader_.only_displaces) return ShaderKind::Displacement;
         for (const auto& row : kKinds)
             if (has(row.method)) return row.kind;
         return {};
     }
 
     void stages() {
+        if (shader_.only_displaces) hand_on_rest();
+        if (shader_.displaces) keep_given();
         call("construct", {});
         call("begin", {});
         if (shader_.co_shader) return;
@@ -159,7 +165,8 @@ class Pipeline {
         if (!first) return nullptr;
         for (const Function* method : shader_.shader_class->methods)
             if (method->name == name && fits(*method, globals)) return method;
-        report(Code::RSL_METHOD_PARAMETERS, first->span, name, text_of(globals));
+        if (told_.insert(name).second)
+            report(Code::RSL_METHOD_PARAMETERS, first->span, name, text_of(globals));
         return nullptr;
     }
 
@@ -199,27 +206,32 @@ class Pipeline {
     }
 
     void surface() {
-        bend();
+        if (shader_.displaces) displace();
         out_.push_back(make_.assign(make_.variable("Ci"), make_.number(0)));
         out_.push_back(make_.assign(make_.variable("Oi"), make_.variable("Os")));
-        bool opacity = has("opacity");
-        if (opacity) out_.push_back(opacity_call());
-        Expr* seen = make_.number(1);
-        if (opacity)
-            seen = make_.binary(Op::NotEqual, make_.variable("Oi"),
-                                make_.cast(BaseType::Color, make_.number(0)));
+        if (!has("opacity")) return shading();
+        out_.push_back(opacity_call());
+        std::vector<Stmt*> rest = part([&] { shading(); });
+        IfStmt* seen =
+            make_.branch(make_.binary(Op::NotEqual, make_.call("seenopacity", {make_.variable("Oi")}),
+                                      make_.number(0)),
+                         std::move(rest));
+        seen->no = make_.assign(make_.variable("Oi"), make_.number(0));
+        seen->behind_opacity = true;
+        out_.push_back(seen);
+    }
+
+    // What `add` appends, by itself.
+    template <class F>
+    std::vector<Stmt*> part(F&& add) {
         std::vector<Stmt*> before = std::exchange(out_, {});
-        shading();
-        IfStmt* rest = make_.branch(seen, std::exchange(out_, std::move(before)));
-        rest->behind_opacity = true;
-        out_.push_back(rest);
+        add();
+        return std::exchange(out_, std::move(before));
     }
 
     // __computesOpacity = 0 promises that shadow rays need not ask: they then see Os.
     Stmt* opacity_call() {
-        std::vector<Stmt*> before = std::exchange(out_, {});
-        call("opacity", {"Oi"});
-        std::vector<Stmt*> made = std::exchange(out_, std::move(before));
+        std::vector<Stmt*> made = part([&] { call("opacity", {"Oi"}); });
         for (const Symbol* parameter : shader_.parameters) {
             const auto* number = as_if<NumberExpr>(parameter->initial);
             if (parameter->name != "__computesOpacity" || !number || number->value != 0) continue;
@@ -230,41 +242,122 @@ class Pipeline {
         return made.empty() ? make_.block({}) : made[0];
     }
 
+    using Names = std::vector<std::string_view>;
+
+    // The first of these lists of which the class has all.
+    Names first_of(std::initializer_list<Names> choices) const {
+        for (const Names& names : choices)
+            if (std::all_of(names.begin(), names.end(), [&](auto name) { return has(name); }))
+                return names;
+        return {};
+    }
+
+    // What lights a point depends on what sees it: see docs/language.md#rsl-20.
     void shading() {
-        call("prelighting", {"Ci", "Oi"});
-        if (has("lighting")) {
-            call("lighting", {"Ci", "Oi"});
-        } else if (has("diffuselighting") || has("specularlighting")) {
+        const Names pair{"diffuselighting", "specularlighting"}, whole{"lighting"},
+            alone{"surface"}, diffuse{"diffuselighting"}, specular{"specularlighting"};
+        Names camera = first_of({whole, pair, alone, diffuse, specular});
+        Names traced = first_of({pair, whole, alone, diffuse, specular});
+        Names indirect = has("diffuselighting") ? diffuse : traced;
+        if (has("diffuselighting"))
             out_.push_back(make_.declare({local(BaseType::Color, "pipeline->Ii")}));
-            call("diffuselighting", {"Ci", "Oi", "pipeline->Ii"});
-            call("specularlighting", {"Ci", "Oi"});
+        call("prelighting", {"Ci", "Oi"});
+        auto run = [&](const Names& names) {
+            return part([&] {
+                for (std::string_view name : names) light_by(name);
+            });
+        };
+        auto unless = [&](double kind, std::vector<Stmt*> body) {
+            return make_.branch(
+                make_.binary(Op::NotEqual, make_.call("raykind", {}), make_.number(kind)),
+                std::move(body));
+        };
+        if (camera == indirect && camera == traced) {
+            for (Stmt* stmt : run(camera)) out_.push_back(stmt);
+        } else if (camera == pair) {
+            for (Stmt* stmt : run(diffuse)) out_.push_back(stmt);
+            out_.push_back(unless(2, run(specular)));
         } else {
-            call("surface", {"Ci", "Oi"});
+            std::vector<Stmt*> direct = run(camera);
+            if (camera != traced) {
+                IfStmt* behind = unless(0, run(traced));
+                behind->no = make_.block(std::move(direct));
+                direct = {behind};
+            }
+            IfStmt* any = unless(2, std::move(direct));
+            any->no = make_.block(run(indirect));
+            out_.push_back(any);
         }
         call("postlighting", {"Ci", "Oi"});
+    }
+
+    void light_by(std::string_view name) {
+        if (name == "diffuselighting") return call(name, {"Ci", "Oi", "pipeline->Ii"});
+        call(name, {"Ci", "Oi"});
     }
 
     Symbol* local(BaseType type, std::string_view name) {
         return make_.symbol(SymbolKind::Local, name, {type, -1});
     }
 
-    // As a displacement that is joined with a surface: the normal is bent, the points stay.
-    void bend() {
-        if (!has("displacement")) return;
-        Symbol* P = local(BaseType::Point, "pipeline->P");
-        Symbol* N = local(BaseType::Normal, "pipeline->N");
-        P->initial = make_.variable("P");
-        N->initial = make_.variable("N");
-        out_.push_back(make_.declare({P, N}));
+    Expr* displaced_is(double how) {
+        return make_.binary(Op::Equal, make_.call("displaced", {}), make_.number(how));
+    }
+
+    // A displacement's own P and N before it runs, for the surface of the same class.
+    void hand_on_rest() {
+        std::vector<Symbol*> parameters(shader_.parameters.begin(), shader_.parameters.end());
+        for (Symbol* parameter : parameters) parameter->output = false;
+        for (auto [name, rest, type] : {std::tuple{"P", "rest P", BaseType::Point},
+                                        std::tuple{"N", "rest N", BaseType::Normal}}) {
+            Symbol* left = make_.symbol(SymbolKind::Parameter, rest, {type, -1});
+            left->output = true;
+            left->detail = Detail::Varying;
+            parameters.push_back(left);
+            out_.push_back(make_.assign(make_.variable(rest), make_.variable(name)));
+        }
+        shader_.parameters = ast_.arena.copy(parameters);
+    }
+
+    // begin() and displacement() work on the surface as it is without displacement. Where that has
+    // moved the vertices, they handed that on.
+    void keep_given() {
+        std::vector<Symbol*> kept;
+        std::vector<Stmt*> back;
+        for (auto [name, rest, type, move] :
+             {std::tuple{"P", "rest P", BaseType::Point, "transform"},
+              std::tuple{"N", "rest N", BaseType::Normal, "ntransform"}}) {
+            kept.push_back(local(type, ast_.arena.copy(std::string("pipeline->") + name)));
+            kept.back()->initial = make_.variable(name);
+            back.push_back(make_.effect(
+                make_.call("displacementvalue", {make_.text(rest), make_.variable(name)})));
+            back.push_back(make_.assign(
+                make_.variable(name),
+                make_.call(move, {make_.text("object"), make_.text("current"),
+                                  make_.variable(name)})));
+        }
+        out_.push_back(make_.declare(kept));
+        out_.push_back(make_.branch(displaced_is(1), std::move(back)));
+    }
+
+    // Where the vertices have moved, P and N are given. Else the normal is bent, as by a displacement
+    // that is joined with a surface: the points stay.
+    void displace() {
         call("displacement", {"P", "N"});
-        auto is = [&](Op op, std::string_view name, std::string_view before) {
-            return make_.binary(op, make_.variable(name), make_.variable(before));
+        auto is = [&](Op op, std::string_view name) {
+            return make_.binary(op, make_.variable(name), given(name));
         };
         Expr* moved = make_.call("calculatenormal", {make_.variable("P")});
-        out_.push_back(make_.branch(
-            make_.binary(Op::And, is(Op::NotEqual, "P", P->name), is(Op::Equal, "N", N->name)),
-            {make_.assign(make_.variable("N"), make_.call("normalize", {moved}))}));
-        out_.push_back(make_.assign(make_.variable("P"), make_.variable(P->name)));
+        IfStmt* normal = make_.branch(
+            make_.binary(Op::And, is(Op::NotEqual, "P"), is(Op::Equal, "N")),
+            {make_.assign(make_.variable("N"), make_.call("normalize", {moved}))});
+        out_.push_back(
+            make_.branch(displaced_is(0), {normal, make_.assign(make_.variable("P"), given("P"))}));
+        out_.push_back(make_.branch(displaced_is(1), {make_.assign(make_.variable("P"), given("P")),
+                                                      make_.assign(make_.variable("N"), given("N"))}));
+    }
+    Expr* given(std::string_view name) {
+        return make_.variable(ast_.arena.copy("pipeline->" + std::string(name)));
     }
 
     Ast& ast_;
@@ -272,6 +365,7 @@ class Pipeline {
     ShaderDefinition& shader_;
     TreeBuilder make_;
     std::vector<Stmt*> out_;
+    std::set<std::string_view> told_;  // methods whose parameters do not fit
 };
 
 }  // namespace

@@ -21,13 +21,21 @@ void add_leaves(const StructDefinition& structure, const std::string& path,
     }
 }
 
+}  // namespace
+
+bool has_open_arrays(const StructDefinition& structure) {
+    return std::any_of(structure.members.begin(), structure.members.end(), [](const Symbol* m) {
+        return m->type.array_length == 0 || m->resizable ||
+               (m->structure && (has_open_arrays(*m->structure) ||
+                                 (m->type.is_array() && has_arrays(*m->structure))));
+    });
+}
+
 bool has_arrays(const StructDefinition& structure) {
     return std::any_of(structure.members.begin(), structure.members.end(), [](const Symbol* m) {
         return m->type.is_array() || (m->structure && has_arrays(*m->structure));
     });
 }
-
-}  // namespace
 
 std::vector<Leaf> leaves_of(const StructDefinition& structure) {
     std::vector<Leaf> leaves;
@@ -41,18 +49,42 @@ const Symbol* find_member(const StructDefinition& structure, std::string_view na
     return nullptr;
 }
 
+Expr* flat_index(Ast& ast, const SourceSpan& span, Expr* i, int length, Expr* j) {
+    TreeBuilder make(ast, span);
+    return make.call("elementof", {i, make.number(length), j});
+}
+
 std::vector<Expr*> parts_of(Ast& ast, const StructValue& value, const SourceSpan& span,
-                            size_t* nodes) {
+                            size_t* nodes, Parts how) {
     TreeBuilder make(ast, span);
     std::vector<Expr*> parts;
     for (const Leaf& leaf : leaves_of(*value.structure)) {
-        if (*nodes > kMostCopiedNodes) break;
-        ++*nodes;
         std::string name = value.name + leaf.path;
-        parts.push_back(value.index ? make.element(name, *value.index, nodes)
-                                    : make.variable(name));
+        int length = how == Parts::Elements ? std::max(leaf.member->type.array_length, -1) : -1;
+        for (int k = 0; k < std::max(length, 1); ++k) {
+            if (*nodes > kMostCopiedNodes) return parts;
+            ++*nodes;
+            if (!value.index && length < 0)
+                parts.push_back(make.variable(name));
+            else if (!value.index)
+                parts.push_back(make.element(name, *make.number(k), nodes));
+            else if (length < 0)
+                parts.push_back(make.element(name, *value.index, nodes));
+            else
+                parts.push_back(make.element(
+                    name, *flat_index(ast, span, copy_tree(ast, *value.index, nodes), length,
+                                      make.number(k)),
+                    nodes));
+        }
     }
     return parts;
+}
+
+size_t count_parts(const StructDefinition& structure, Parts parts) {
+    size_t count = 0;
+    for (const Leaf& leaf : leaves_of(structure))
+        count += size_t(parts == Parts::Elements ? std::max(leaf.member->type.array_length, 1) : 1);
+    return count;
 }
 
 std::vector<Symbol*> expanded(Ast& ast, const Symbol& symbol) {
@@ -67,10 +99,16 @@ std::vector<Symbol*> expanded(Ast& ast, const Symbol& symbol) {
         part->structure = nullptr;
         part->initial = part->length = nullptr;
         bool of_array = symbol.type.is_array();
+        int inner = leaf.member->type.array_length, each = std::max(inner, 1);
         part->type = {leaf.member->type.base,
-                      of_array ? symbol.type.array_length : leaf.member->type.array_length};
+                      of_array ? symbol.type.array_length * each : inner};
         part->resizable = of_array ? symbol.resizable : !formal && leaf.member->resizable;
-        if (of_array && symbol.length) part->length = copy_tree(ast, *symbol.length);
+        if (of_array && symbol.length) {
+            TreeBuilder make(ast, symbol.span);
+            part->length = copy_tree(ast, *symbol.length);
+            if (each > 1)
+                part->length = make.binary(Op::Multiply, part->length, make.number(each));
+        }
         if (!of_array && leaf.member->length && !formal)
             part->length = copy_tree(ast, *leaf.member->length);
         if (formal) {
@@ -87,8 +125,12 @@ std::vector<Symbol*> expanded(Ast& ast, const Symbol& symbol) {
                    symbol.type.array_length <= kMostDefaults) {
             auto* literal = ast.make<ArrayLiteralExpr>(symbol.span);
             std::vector<Expr*> items;
-            for (int k = 0; k < symbol.type.array_length; ++k)
-                items.push_back(copy_tree(ast, *first));
+            const auto* list = as_if<ArrayLiteralExpr>(first);
+            for (int k = 0; k < symbol.type.array_length; ++k) {
+                if (!list) items.push_back(copy_tree(ast, *first));
+                for (const Expr* item : list ? list->items : std::span<Expr*>())
+                    items.push_back(copy_tree(ast, *item));
+            }
             literal->items = ast.arena.copy(items);
             part->initial = literal;
         }
@@ -109,7 +151,7 @@ bool check_structs(const Ast& ast, Reporter& reporter) {
             bool known = std::find(ast.structs.begin(), earlier, member->structure) != earlier;
             if (!known)
                 reporter.report(Code::RSL_STRUCT_IN_ITSELF, at, member->name, ast.structs[i]->name);
-            bool nested = known && member->type.is_array() && has_arrays(*member->structure);
+            bool nested = known && member->type.is_array() && has_open_arrays(*member->structure);
             if (nested) reporter.report(Code::RSL_STRUCT_ARRAYS, at, member->structure->name);
             good = good && known && !nested;
         }

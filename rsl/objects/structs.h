@@ -32,10 +32,24 @@ struct StructValue {
 // calls within the indices of elements that are arguments multiply.
 constexpr size_t kMostCopiedNodes = 1 << 20;
 
+// An array of structs that hold arrays of fixed length is an array of all their elements.
+bool has_arrays(const StructDefinition& structure);
+// Those of changing length cannot be, nor arrays of structs in arrays of structs.
+bool has_open_arrays(const StructDefinition& structure);
+
+// Whole: an array is one expression, which an element of an array of structs has not. Elements: one
+// expression for each element of each member.
+enum class Parts { Whole, Elements };
+
 // The leaves of a value as expressions, in the order of leaves_of(). `nodes` counts copied nodes;
 // beyond the most there are no more expressions.
 std::vector<Expr*> parts_of(Ast& ast, const StructValue& value, const SourceSpan& span,
-                            size_t* nodes);
+                            size_t* nodes, Parts parts = Parts::Whole);
+size_t count_parts(const StructDefinition& structure, Parts parts);
+
+// Element j of the array that element i of an array of structs holds, as an index of all elements:
+// -1 where it has none such.
+Expr* flat_index(Ast& ast, const SourceSpan& span, Expr* i, int length, Expr* j);
 
 // The variables in place of one of struct type, with the members' defaults.
 std::vector<Symbol*> expanded(Ast& ast, const Symbol& symbol);

@@ -25,6 +25,9 @@ struct Method {
 // handles are null.
 using BoundTexts = std::map<std::string, std::vector<std::string>, std::less<>>;
 
+// How many numbers, or texts, parameters are bound to: those of open length are that long.
+using BoundCounts = std::map<std::string, size_t, std::less<>>;
+
 // A shader and the functions of its source. Units are numbered; 0 is the shader itself.
 struct Unit {
     std::string handle;                  // "" of the shader itself
@@ -32,6 +35,7 @@ struct Unit {
     std::vector<Function*> functions;    // at the level of its file
     uint32_t first_token = 0;
     BoundTexts bound;
+    BoundCounts counts = {};
 
     // Filled by list_members().
     std::vector<Method> methods;

@@ -53,6 +53,7 @@ struct Symbol {
     bool resizable = false;   // an array whose length changes: RSL 2.0's "float a[];"
     bool handle = false;      // of type shader: a float that names a linked shader, 0 for null
     bool accessible = false;  // a class's member: declared public
+    bool open = false;        // a shader's parameter "T a[]": as long as what it is bound to
     Expr* initial = nullptr;  // initialiser, or a parameter's default; may be null
     Expr* length = nullptr;   // of a resizable array, at first; null: 0, or that of `initial`
     // The struct that it is of, whose members stand in its place after expand_objects().
@@ -397,6 +398,11 @@ struct ShaderDefinition {
         {};                  // parameters of type shader: variables, after expand_objects()
     bool co_shader = false;  // the renderer calls nothing of it: only other shaders do
     std::span<std::string_view> co_shaders = {};  // handles of those linked with it that it uses
+    // Parameters of open length: those without elements are variables, and no parameters.
+    std::span<Symbol*> open_arrays = {};
+    // A class of which only construct(), begin() and displacement() run, whatever else it has.
+    bool only_displaces = false;
+    bool displaces = false;  // a surface of a class that has displacement() too
 };
 
 // Memory of the nodes: blocks that live as long as the Ast.

@@ -177,6 +177,7 @@ void DeclarationParser::array_suffix(Symbol& symbol) {
         bool listed = cursor_.is(Punct::Assign) && cursor_.is(Punct::LeftBrace, 1) &&
                       !cursor_.is(Punct::RightBrace, 2);
         symbol.resizable = local && (ast_.resizes || !listed);
+        symbol.open = symbol.kind == SymbolKind::Parameter;
         ast_.resizable_arrays = ast_.resizable_arrays || symbol.resizable;
         return;
     }

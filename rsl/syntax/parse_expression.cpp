@@ -235,12 +235,14 @@ Expr* ExpressionParser::postfix() {
     return operand;
 }
 
-// operand->name, of a variable or an element, or operand->name(arguments).
+// operand->name, of a variable or an element, or operand->name(arguments), also of a call's result.
 Expr* ExpressionParser::member(Expr* operand) {
     uint32_t at = cursor_.position();
     auto* element = as_if<IndexExpr>(operand);
     auto* variable = as_if<VariableExpr>(element ? element->array : operand);
-    if (!variable || cursor_.token(1).kind != TokenKind::Identifier) {
+    bool method = cursor_.is(Punct::LeftParen, 2);
+    bool known = variable || (operand->kind == ExprKind::Call && method);
+    if (!known || cursor_.token(1).kind != TokenKind::Identifier) {
         errors_.syntax_error("a member of a variable");
         return bad_expression();
     }

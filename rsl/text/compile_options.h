@@ -1,6 +1,7 @@
 // rsl/text/compile_options.h: a shader source, and what a command line says about compiling it.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,9 @@ struct CompileOptions {
     // point file elsewhere a warning (whoever runs the shader must refuse it).
     AllowedPaths files;
     AllowedPaths pictures;  // likewise for literals that name textures and maps
+    // How many numbers or texts parameters are bound to: "T a[]" is that long. Linked shaders have
+    // counts of their own (rsl/link.h).
+    std::map<std::string, size_t, std::less<>> counts;
 };
 
 }  // namespace kinora::rsl

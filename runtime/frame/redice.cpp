@@ -6,6 +6,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/build/build_scene.h"
+#include "runtime/description/displacements.h"
 #include "runtime/description/findings.h"
 #include "runtime/frame/frame.h"
 
@@ -13,9 +14,7 @@ namespace kinora {
 
 bool may_dice(const SceneDescription& description, const SceneOptions& options) {
     return options.displacement == DisplacementMode::True &&
-           std::ranges::any_of(description.materials, [](const MaterialDefinition& material) {
-               return !material.displacements.empty();
-           });
+           std::ranges::any_of(description.materials, displaces);
 }
 
 Redicer::Redicer(SceneDescription description, const SceneOptions& options)

@@ -95,7 +95,9 @@ class Check {
     void check_shader(const collada::Effect& effect, const rsl::Shader& shader,
                       const CheckedEffect& checked) {
         bool runs = std::any_of(checked.passes.begin(), checked.passes.end(),
-                                [&](const PassShader& p) { return p.shader.get() == &shader; });
+                                [&](const PassShader& p) {
+                                    return p.shader && p.shader->name == shader.name;
+                                });
         if (!runs && !effect.rsl->shaders.empty())
             diagnostics_.report(Code::RSL_SHADER_UNUSED, effect.rsl->where,
                                 rsl::shader_kind_name(shader.kind), shader.name);

@@ -103,6 +103,26 @@ std::shared_ptr<const rsl::Shader> EffectLinker::chosen(const BoundShader& shade
     auto [known, fresh] = chosen_.try_emplace(shader.from);
     if (fresh && !shaders(shader.effect).empty())
         known->second = choose_shader(shaders(shader.effect), *shader.from, diagnostics_);
+    return known->second ? with_lengths(shader, known->second) : nullptr;
+}
+
+// The shader compiled for arrays as long as what is bound.
+std::shared_ptr<const rsl::Shader> EffectLinker::with_lengths(
+    const BoundShader& shader, const std::shared_ptr<const rsl::Shader>& alone) {
+    if (alone->definition->open_arrays.empty()) return alone;
+    rsl::LinkCounts bound = counts(shader);
+    if (!rsl::other_lengths(*alone, bound)) return alone;
+    std::string key = fmt::format("{}", static_cast<const void*>(shader.from));
+    for (const auto& [symbol, count] : bound) key += fmt::format("\n{}={}", symbol, count);
+    auto [known, fresh] = lengths_.try_emplace(key);
+    if (!fresh) return known->second;
+    const EffectCode& own = code(shader.effect);
+    size_t before = diagnostics_.findings().size();
+    known->second = as_kind(
+        rsl::compile_linked({{"", {own.text, own.map}, alone->name, texts(shader), bound}}, options_,
+                            diagnostics_),
+        alone->kind);
+    diagnostics_.drop_repeats(before);
     return known->second;
 }
 
@@ -129,6 +149,16 @@ rsl::LinkTexts EffectLinker::texts(const BoundShader& shader) const {
         texts[bind.symbol] = value.strings;
     }
     return texts;
+}
+
+rsl::LinkCounts EffectLinker::counts(const BoundShader& shader) const {
+    rsl::LinkCounts counts;
+    for (const collada::RslBind& bind : shader.from->binds) {
+        const collada::ParamValue& value = bound_value(scene_, shader, bind);
+        bool text = value.type == collada::ParamType::String;
+        counts[bind.symbol] = text ? value.strings.size() : value.numbers.size();
+    }
+    return counts;
 }
 
 // Only those that can be meant: a library may be large.
@@ -165,7 +195,7 @@ rsl::LinkedSource EffectLinker::source(const BoundShader& shader, const std::str
     auto alone = chosen(shader);
     for (auto& [symbol, strings] : bound)
         if (find_handle_parameter(*alone, symbol)) strings = handles_in(strings);
-    return {handle, {own.text, own.map}, alone->name, std::move(bound)};
+    return {handle, {own.text, own.map}, alone->name, std::move(bound), counts(shader)};
 }
 
 std::shared_ptr<const rsl::Shader> EffectLinker::linked(const BoundShader& shader) {
@@ -178,13 +208,16 @@ std::shared_ptr<const rsl::Shader> EffectLinker::linked(const BoundShader& shade
         sources.push_back(source(other, other.from->handle));
         key += fmt::format("\n{}", static_cast<const void*>(other.from));
     }
-    for (const rsl::LinkedSource& one : sources)
+    for (const rsl::LinkedSource& one : sources) {
         for (const auto& [symbol, strings] : one.texts)
             key += fmt::format("\n{}.{}={}", one.handle, symbol, fmt::join(strings, "\x1f"));
+        for (const auto& [symbol, count] : one.counts)
+            key += fmt::format("\n{}.{}:{}", one.handle, symbol, count);
+    }
     auto [known, fresh] = linked_.try_emplace(key);
     if (!fresh) return known->second;
     size_t before = diagnostics_.findings().size();
-    known->second = rsl::compile_linked(sources, options_, diagnostics_);
+    known->second = as_kind(rsl::compile_linked(sources, options_, diagnostics_), alone->kind);
     diagnostics_.drop_repeats(before);
     return known->second;
 }

@@ -59,6 +59,9 @@ class EffectLinker {
     bool has_co_shaders(const collada::Effect& effect) const;
     EffectCode& code(uint32_t effect);
     rsl::LinkTexts texts(const BoundShader& shader) const;
+    rsl::LinkCounts counts(const BoundShader& shader) const;
+    std::shared_ptr<const rsl::Shader> with_lengths(const BoundShader& shader,
+                                                    const std::shared_ptr<const rsl::Shader>& alone);
     rsl::LinkedSource source(const BoundShader& shader, const std::string& handle);
 
     const collada::SceneData& scene_;
@@ -67,6 +70,7 @@ class EffectLinker {
     std::vector<BoundShader> library_;
     std::map<uint32_t, EffectCode> codes_;  // by effect
     std::map<const collada::RslShader*, std::shared_ptr<const rsl::Shader>> chosen_;
+    std::map<std::string, std::shared_ptr<const rsl::Shader>> lengths_;  // by what decides it
     std::map<std::string, std::shared_ptr<const rsl::Shader>> linked_;  // by what decides it
 };
 

@@ -28,10 +28,14 @@ constexpr Stage kStages[] = {
     {"COSHADER", rsl::ShaderKind::Surface},  // of any kind: fits_stage()
 };
 
+bool has_kind(const rsl::Shader& shader, rsl::ShaderKind kind) {
+    return shader.kind == kind || (kind == rsl::ShaderKind::Displacement && shader.displacement);
+}
+
 // A co-shader may be any shader, by its name; without one it is what nothing else can be.
 bool fits_stage(const rsl::Shader& shader, const collada::RslShader& from) {
     if (from.stage != collada::RslStage::CoShader)
-        return shader.kind == stage_kind(from.stage) && !shader.definition->co_shader;
+        return has_kind(shader, stage_kind(from.stage)) && !shader.definition->co_shader;
     return !from.name.empty() || shader.definition->co_shader;
 }
 
@@ -56,6 +60,12 @@ rsl::ShaderKind stage_kind(collada::RslStage stage) {
     return kStages[size_t(stage)].kind;
 }
 
+std::shared_ptr<const rsl::Shader> as_kind(std::shared_ptr<const rsl::Shader> shader,
+                                           rsl::ShaderKind kind) {
+    if (!shader || shader->kind == kind) return shader;
+    return kind == rsl::ShaderKind::Displacement ? shader->displacement : nullptr;
+}
+
 EffectShaders compile_effect(const collada::Effect& effect, const rsl::CompileOptions& options,
                              Diagnostics& diagnostics) {
     rsl::ShaderSource source;
@@ -78,7 +88,8 @@ std::shared_ptr<const rsl::Shader> choose_shader(const EffectShaders& shaders,
         chosen = shader;
         ++candidates;
     }
-    if (candidates == 1) return chosen;
+    bool co_shader = from.stage == collada::RslStage::CoShader;
+    if (candidates == 1) return co_shader ? chosen : as_kind(chosen, stage_kind(from.stage));
     if (candidates > 1)
         diagnostics.report(Code::RSL_SHADER_AMBIGUOUS, from.where, word_for(from.stage));
     else

@@ -15,6 +15,11 @@ namespace kinora {
 const char* stage_name(collada::RslStage stage);  // "SURFACE"
 rsl::ShaderKind stage_kind(collada::RslStage stage);
 
+// The shader if it is of this kind, or as a displacement where its class has displacement() too;
+// else null.
+std::shared_ptr<const rsl::Shader> as_kind(std::shared_ptr<const rsl::Shader> shader,
+                                           rsl::ShaderKind kind);
+
 using EffectShaders = std::vector<std::shared_ptr<const rsl::Shader>>;
 
 // All shaders of the effect's code (effect.rsl must be there); none if it has errors.

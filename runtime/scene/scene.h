@@ -196,6 +196,8 @@ struct SceneOptions {
     // The weakest lights of a point cast no shadow rays and count as shadowed, up to this share of
     // what all lights send there.
     float weak_lights = 0;
+    // Classes: where opacity() leaves no channel above it, the point counts as a hole.
+    float opacity_threshold = 0;
     std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
     double frame_rate = 0;          // frames a second that option("Frame") counts; 0: the file's
     // Range played, seconds: what added cameras frame, and its views tell how fine to dice.

@@ -226,6 +226,7 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
     lower.math = options.math;
     lower.spaces = options.spaces;
     lower.skip_transparent = true;
+    lower.opacity_threshold = options.opacity_threshold;
     lower.messages = options.light_messages;
     lower.aovs = options.aovs;
     for (const std::string& name : options.gathered)

@@ -126,6 +126,7 @@ struct ShaderInstanceOptions {
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
     bool own_lines = false;  // jit::CompileOptions
+    float opacity_threshold = 0;  // rsl::LowerOptions
 };
 
 // The shaders as compile_instance() lowers them, their parameters bound.

@@ -35,20 +35,22 @@ void evaluateSamplesAS(color specular; float eu; float ev; normal N; vector T; v
     lobe->evalSpecularSamps(ctx, fres, samples);
 }
 
-// The light of an environment map that lies in "world" space, by the cosine to N: what a sample of
-// the direction has.
-void evaluateSamplesEnv(string map; point P; normal N; output __radiancesample samples[]) {
+// The light of an environment map that lies in the space, by the cosine to N: what a sample of the
+// direction has. The last two are the pairs "environmentspace" and "scale".
+void evaluateSamplesEnv(string map; point P; normal N; output __radiancesample samples[];
+                        string space = "world"; color scale = 1;) {
     normal Nn = normalize(N);
     float i;
     for (i = 0; i < arraylength(samples); i += 1) {
         vector towards = samples[i]->direction;
-        samples[i]->radiance = color environment(map, vtransform("world", towards));
+        samples[i]->radiance = scale * color environment(map, vtransform(space, towards));
         samples[i]->lightPdf = max(0, towards . Nn) * M_INVPI;
     }
 }
 // Makes `count` samples of it.
 void generateSamplesEnv(string map; point P; normal N; float count;
-                        output __radiancesample samples[]) {
+                        output __radiancesample samples[]; string space = "world";
+                        color scale = 1;) {
     normal Nn = normalize(N);
     vector across = abs(Nn[0]) < 0.5 ? vector "current" (1, 0, 0) : vector "current" (0, 1, 0);
     vector X = normalize(across ^ Nn), Y = Nn ^ X;
@@ -60,7 +62,7 @@ void generateSamplesEnv(string map; point P; normal N; float count;
                                 Nn * sqrt(1 - square);
         samples[i]->distance = M_MAXDIST;
     }
-    evaluateSamplesEnv(map, P, Nn, samples);
+    evaluateSamplesEnv(map, P, Nn, samples, space, scale);
 }
 
 #endif

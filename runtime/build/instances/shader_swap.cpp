@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/build/instances/output_planes.h"
+#include "runtime/description/displacements.h"
 #include "runtime/shading/shading.h"
 
 namespace kinora {
@@ -172,6 +173,7 @@ ShaderSwapper::ShaderSwapper(const Scene& scene, SceneDescription description,
     numbers_.animated.resize(numbers_.values.size(), false);
     options_.math = scene.options.math;
     options_.target = scene.options.target;
+    options_.opacity_threshold = scene.options.opacity_threshold;
     options_.own_lines = true;  // who edits may look at the code beside the text
     for (const OutputPlane& plane : outputs_) add_new_names(options_.aovs, {plane.parameter});
     for (const NodeDefinition& node : scene.description->nodes)
@@ -263,7 +265,8 @@ ShaderSwapper::Outcome ShaderSwapper::swap(const SceneDescription& edited, Diagn
             return same_use(before, p, after, q);
         };
         if (std::ranges::equal(was.surfaces, is.surfaces, same)) continue;
-        bool plain = is.displacements.empty() && is.transformations.empty() && is.lights.empty();
+        bool plain = !displaces(was) && !displaces(is) && is.transformations.empty() &&
+                     is.lights.empty();
         if (!plain || was.surfaces.size() != is.surfaces.size()) return Outcome::Build;
         for (size_t k = 0; k < instances_.size(); ++k) {
             if (instances_[k].material != m) continue;

@@ -2,6 +2,7 @@
 #include "runtime/build/instances/surface_instances.h"
 
 #include "runtime/build/instances/vertex_inputs.h"
+#include "runtime/description/displacements.h"
 #include "runtime/description/shader_library.h"
 
 namespace kinora {
@@ -20,12 +21,15 @@ void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
     if (scene_.options.displacement != DisplacementMode::Bump)
         vertices_.add(ShaderInstanceKind::Displacement, surface, use, material);
     const Shape& shape = scene_.shapes[surface.shape];
+    bool moved = surface.displacement.instance != kNone;
+    std::vector<ShaderUse> displacements = displacements_of(material);
+    // A class's displacement() that did not run on the vertices runs in its surface.
+    if (!moved && surface_displaces(material)) displacements.clear();
     KeyedInstance made = begin_instance(description, ShaderInstanceKind::Surface, material,
-                                        layers_of(material), use, shape.node);
+                                        with_surfaces(displacements, material), use, shape.node);
     volumes_.add(surface, material, use);
     ShaderInstance& instance = *made.instance;
-    if (surface.displacement.instance != kNone)
-        instance.done_layers = uint32_t(material.displacements.size());
+    if (moved) instance.done_layers = uint32_t(displacements.size());
     const PrimitiveGroup& group = *scene_.meshes[shape.mesh].groups[surface.group].definition;
     VertexInputs inputs = find_vertex_inputs(group, use, instance.layers);
     add_displaced_inputs(instance.layers, instance.done_layers, inputs);
@@ -63,11 +67,11 @@ std::vector<ShaderUse> SurfaceInstances::emitter(const MaterialDefinition& mater
 }
 
 // Displacements, then what is seen: the default surface of a material that only displaces.
-std::vector<ShaderUse> SurfaceInstances::layers_of(const MaterialDefinition& material) {
+std::vector<ShaderUse> SurfaceInstances::with_surfaces(std::vector<ShaderUse> layers,
+                                                       const MaterialDefinition& material) {
     std::vector<ShaderUse> seen = material.surfaces;
     if (seen.empty())
         seen = material.lights.empty() ? default_material().surfaces : emitter(material);
-    std::vector<ShaderUse> layers = material.displacements;
     layers.insert(layers.end(), seen.begin(), seen.end());
     return layers;
 }

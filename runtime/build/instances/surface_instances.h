@@ -23,7 +23,8 @@ class SurfaceInstances {
   private:
     const MaterialDefinition& default_material();
     std::vector<ShaderUse> emitter(const MaterialDefinition& material);
-    std::vector<ShaderUse> layers_of(const MaterialDefinition& material);
+    std::vector<ShaderUse> with_surfaces(std::vector<ShaderUse> layers,
+                                         const MaterialDefinition& material);
     uint32_t find_or_add(KeyedInstance made);
 
     Scene& scene_;

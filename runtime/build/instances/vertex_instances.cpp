@@ -2,13 +2,15 @@
 #include "runtime/build/instances/vertex_instances.h"
 
 #include "runtime/build/instances/vertex_inputs.h"
+#include "runtime/description/displacements.h"
 
 namespace kinora {
 
 void VertexInstances::add(ShaderInstanceKind kind, Surface& surface, const MaterialUse* use,
                           const MaterialDefinition& material) {
     bool displacement = kind == ShaderInstanceKind::Displacement;
-    const auto& layers = displacement ? material.displacements : material.transformations;
+    std::vector<ShaderUse> layers =
+        displacement ? displacements_of(material) : material.transformations;
     if (layers.empty()) return;
     const Shape& shape = scene_.shapes[surface.shape];
     const PrimitiveGroup& group = *scene_.meshes[shape.mesh].groups[surface.group].definition;

@@ -6,6 +6,7 @@
 
 #include "runtime/build/shapes/mesh.h"
 #include "runtime/build/shapes/morphs.h"
+#include "runtime/description/displacements.h"
 #include "runtime/description/findings.h"
 #include "runtime/vertices/vertex_work.h"
 
@@ -24,7 +25,7 @@ constexpr size_t kMostSurfaces = 1'000'000;
 std::vector<bool> read_again(const SceneDescription& description) {
     bool displaced = std::any_of(description.materials.begin(), description.materials.end(),
                                  [](const MaterialDefinition& m) {
-                                     return !m.displacements.empty() || !m.transformations.empty();
+                                     return displaces(m) || !m.transformations.empty();
                                  });
     std::vector<bool> result(description.meshes.size(), displaced);
     for (const MorphDefinition& morph : description.morphs)

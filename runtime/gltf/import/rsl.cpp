@@ -145,8 +145,7 @@ ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Va
     compile(code, !co_shaders);
     std::string name = string_member(layer, "shader");
     for (auto& shader : code.shaders)
-        if (!use.shader && shader->kind == kind && (name.empty() || shader->name == name))
-            use.shader = shader;
+        if (!use.shader && (name.empty() || shader->name == name)) use.shader = as_kind(shader, kind);
     if (!use.shader) {
         if (!code.shaders.empty())
             diagnostics_.report(Code::RSL_SHADER_MISSING, report_.location(pointer),
@@ -154,7 +153,8 @@ ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Va
                                 name.empty() ? "" : fmt::format(" named '{}'", name));
         return use;
     }
-    if (co_shaders) use.shader = linked(layer, *co_shaders, code, *use.shader, pointer);
+    if (co_shaders || rsl::other_lengths(*use.shader, link_counts(layer, "")))
+        use.shader = as_kind(linked(layer, co_shaders, code, *use.shader, pointer), kind);
     if (!use.shader) return use;
     set_params(layer, params, pointer, use);
     if (const tinygltf::Value* sets = member(layer, "texcoords"))
@@ -236,18 +236,37 @@ rsl::LinkTexts RslExtras::link_texts(const tinygltf::Value& layer,
     return texts;
 }
 
+// How many numbers or texts they hold.
+rsl::LinkCounts RslExtras::link_counts(const tinygltf::Value& layer,
+                                       const std::string& prefix) const {
+    rsl::LinkCounts counts;
+    const tinygltf::Value* params = member(layer, "params");
+    if (!params) return counts;
+    for (const std::string& key : member_names(*params)) {
+        std::string name = key.starts_with(prefix) ? key.substr(prefix.size()) : "";
+        const tinygltf::Value& value = params->Get(key);
+        std::vector<double> numbers;
+        if (append_numbers(value, numbers))
+            counts[name] = numbers.size();
+        else
+            counts[name] = value.IsArray() ? value.ArrayLen() : 1;
+    }
+    return counts;
+}
+
 // The shader with its "coshaders", each {"shader", "code" or "file"} by its handle; without code
 // it stands in the shader's own. Null after an error.
 std::shared_ptr<const rsl::Shader> RslExtras::linked(const tinygltf::Value& layer,
-                                                     const tinygltf::Value& co_shaders,
+                                                     const tinygltf::Value* co_shaders,
                                                      const LayerCode& code,
                                                      const rsl::Shader& shader,
                                                      const std::string& pointer) {
     std::vector<rsl::LinkedSource> sources{
-        {"", {code.text, code.map}, shader.name, link_texts(layer, "")}};
+        {"", {code.text, code.map}, shader.name, link_texts(layer, ""), link_counts(layer, "")}};
     std::deque<LayerCode> kept;  // the sources are views
-    for (const std::string& handle : member_names(co_shaders)) {
-        const tinygltf::Value& co_shader = co_shaders.Get(handle);
+    for (const std::string& handle :
+         co_shaders ? member_names(*co_shaders) : std::vector<std::string>()) {
+        const tinygltf::Value& co_shader = co_shaders->Get(handle);
         const LayerCode* own = &code;
         if (member(co_shader, "code") || member(co_shader, "file"))
             own = &kept.emplace_back(read_code(co_shader, pointer + "/coshaders/" + handle));
@@ -255,7 +274,8 @@ std::shared_ptr<const rsl::Shader> RslExtras::linked(const tinygltf::Value& laye
         sources.push_back({handle,
                            {own->text, own->map},
                            string_member(co_shader, "shader"),
-                           link_texts(layer, handle + ".")});
+                           link_texts(layer, handle + "."),
+                           link_counts(layer, handle + ".")});
     }
     return rsl::compile_linked(sources, compile_options(), diagnostics_);
 }

@@ -52,8 +52,9 @@ class RslExtras {
     void compile(LayerCode& code, bool report);
     rsl::CompileOptions compile_options() const;
     rsl::LinkTexts link_texts(const tinygltf::Value& layer, const std::string& prefix) const;
+    rsl::LinkCounts link_counts(const tinygltf::Value& layer, const std::string& prefix) const;
     std::shared_ptr<const rsl::Shader> linked(const tinygltf::Value& layer,
-                                              const tinygltf::Value& co_shaders,
+                                              const tinygltf::Value* co_shaders,
                                               const LayerCode& code, const rsl::Shader& shader,
                                               const std::string& pointer);
     void set_params(const tinygltf::Value& layer, const tinygltf::Value* params,

@@ -117,6 +117,7 @@ void set_quality(SceneOptions& o, const Quality& quality) {
     o.accel.always_rebuild = quality.always_rebuild;
     o.accel.refit_limit = float(quality.refit_limit);
     o.weak_lights = float(quality.weak_lights);
+    o.opacity_threshold = float(quality.opacity_threshold);
     o.light_samples = quality.light_samples;
     o.texture_filter = quality.texture_filter;
     o.displacement = quality.displacement;

@@ -8,6 +8,7 @@
 #include "runtime/description/shader_library.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/co_shaders.h"
 #include "runtime/programs/shade/kernel.h"
 #include "runtime/shading/shader_instance.h"
 
@@ -53,8 +54,11 @@ int unknown_parameter(const rsl::Shader& shader, const std::string& name) {
 int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, ShadeParam& out) {
     out.name = std::string(parameter.name);
     if (parameter.type.base == BaseType::String) {
-        out.strings.push_back(text);
-        return kExitOk;
+        out.strings = parameter.type.is_array() ? split_texts(text) : std::vector{text};
+        if (out.strings.size() == elements(parameter.type)) return kExitOk;
+        return usage(fmt::format("--param {}: a {} takes {} texts, not {}; commas divide them",
+                                 out.name, rsl::type_name(parameter.type),
+                                 elements(parameter.type), out.strings.size()));
     }
     std::optional<std::vector<double>> numbers = parse_numbers(text);
     if (!numbers)

@@ -3,10 +3,18 @@
 
 #include <memory>
 
-#include "rsl/compile.h"
+#include "rsl/link.h"
 #include "runtime/programs/shade/source.h"
 
 namespace kinora {
+
+// How many numbers or texts the source or the command line gives each parameter of the co-shader,
+// or of the shader itself ("").
+rsl::LinkCounts bound_counts(const ShadeOptions& options, const ShadeSource& source,
+                             const std::string& handle);
+
+// Of --param, for an array of strings: commas divide them.
+std::vector<std::string> split_texts(const std::string& text);
 
 // Reads and compiles them as one shader; null after a finding. --param of strings and of parameters
 // of type shader decide which are called.

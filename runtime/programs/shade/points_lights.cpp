@@ -42,6 +42,8 @@ std::optional<int> PointsLights::open(const ShadeOptions& options, const PointSe
         ShadeOptions own = options;
         own.source = from.file;
         own.shader = from.shader;
+        for (const auto& [name, value] : from.parameters)
+            light.source.params.push_back({name, value.numbers, value.texts});
         if (std::optional<int> code = compile_shade_source(own, light.source)) return code;
         const rsl::Shader* shader = choose_shader(own, light.source);
         if (!shader) return kExitUsage;

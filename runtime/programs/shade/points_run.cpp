@@ -9,6 +9,7 @@
 
 #include "runtime/load/override_scene.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/shade/co_shaders.h"
 #include "runtime/programs/shade/points_lights.h"
 
 namespace kinora {
@@ -46,8 +47,9 @@ ShadeOptions with_co_shaders(const ShadeOptions& options, PointsDocument& docume
         for (const auto& [name, value] : from.parameters)
             document.parameters[from.handle + "." + name] = value;
     }
-    for (const auto& [name, value] : document.parameters)
-        if (value.is_text()) source.params.push_back({name, {}, value.texts});
+    for (const auto* values : {&document.variables, &document.parameters})
+        for (const auto& [name, value] : *values)
+            source.params.push_back({name, value.numbers, value.texts});
     return all;
 }
 
@@ -68,6 +70,9 @@ PointsValues own_parameters(const ShadeOptions& options, const ShadeSource& sour
         if (numbers && numbers->size() != 1) value.numbers = *numbers;
         if (numbers && numbers->size() == 1) value = {{}, *numbers, {}, false};
         if (!numbers) value.texts = {text};
+        for (const rsl::ShaderParameter& parameter : shader.parameters)
+            if (!numbers && parameter.name == name && parameter.type.is_array())
+                value.texts = split_texts(text);
         if (!numbers) value.flat = true;
         parameters[name] = value;
     }
@@ -84,6 +89,7 @@ struct Pass {
 
 void want_outputs(const rsl::Shader& shader, Pass& pass) {
     pass.stack.lower.want_P = pass.stack.lower.want_N = true;
+    pass.stack.lower.moves_points = true;
     for (const rsl::ShaderParameter& parameter : shader.parameters)
         if (parameter.output) {
             pass.outputs.push_back(&parameter);
@@ -217,6 +223,8 @@ class PointsRun {
         ShadeOptions own = options_;
         own.source = from.file;
         own.shader = from.shader;
+        for (const auto& [name, value] : from.parameters)
+            before_source_.params.push_back({name, value.numbers, value.texts});
         if (std::optional<int> code = compile_shade_source(own, before_source_)) return code;
         const rsl::Shader* shader = choose_shader(own, before_source_);
         if (!shader) return kExitUsage;

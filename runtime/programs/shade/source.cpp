@@ -100,6 +100,13 @@ std::vector<std::unique_ptr<rsl::Shader>> compile_passes(const ShadeOptions& opt
     return shaders;
 }
 
+std::vector<std::unique_ptr<rsl::Shader>> compile_alone(const ShadeOptions& options,
+                                                        ShadeSource& source) {
+    rsl::CompileOptions with_counts = options.compile;
+    with_counts.counts = bound_counts(options, source, "");
+    return rsl::compile(source.view(), with_counts, source.diagnostics);
+}
+
 // The path of SCENE.dae or SCENE.dae#EFFECT; "" for other sources.
 std::string scene_of_source(const std::string& source) {
     std::string path = source.substr(0, source.rfind('#'));
@@ -208,7 +215,7 @@ std::optional<int> compile_shade_source(const ShadeOptions& options, ShadeSource
     if (options.co_shaders.empty() && !source.linked.empty())
         source.shaders = compile_passes(options, source);
     else if (options.co_shaders.empty())
-        source.shaders = rsl::compile(source.view(), options.compile, source.diagnostics);
+        source.shaders = compile_alone(options, source);
     else if (auto linked = compile_with_co_shaders(options, source))
         source.shaders.push_back(std::move(linked));
     source.diagnostics.sort_unique();  // by location: they came by stage
