@@ -54,17 +54,10 @@ void begin_shading(Scene& scene, const FrameSettings& settings, raytrace::Film& 
     if (film.is_band && settings.band_rows == 0) film.resize(scene.view.width, scene.view.height);
     scene.shading->stop_by(settings.stop);
     scene.shading->show(settings.insight);
-<<<<<<< HEAD
     const ShadingInsight& insight = settings.insight;
     if (insight.costs) insight.costs->start(scene.view.width, scene.view.height);
     if (insight.first)
         insight.first->start(scene.view.width, scene.view.height, scene.shader_instances.size());
-    {
-        StageScope stage(Stage::Kernels);
-        scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
-    }
-=======
-    if (settings.insight.costs) settings.insight.costs->start(scene.view.width, scene.view.height);
     StageScope stage(Stage::Kernels);
     scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers);
 }
@@ -72,13 +65,12 @@ void begin_shading(Scene& scene, const FrameSettings& settings, raytrace::Film& 
 // What the film holds of the picture, without the imager.
 bool trace_film(Scene& scene, const FrameSettings& settings, raytrace::Film& film,
                 raytrace::IntegratorCounters& counters, const raytrace::Progress* progress) {
->>>>>>> 99d29f75ae0fbebeda0f14c2bbbe8c5199a4b4f1
     raytrace::IntegratorSettings integrator = settings.integrator;
     float gain = float(settings.gain);
     if (integrator.background) *integrator.background /= gain;  // it is no part of the scene
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film, integrator,
                                      scene.scratch, counters, progress);
-    if (insight.first) insight.first->finish();
+    if (settings.insight.first) settings.insight.first->finish();
     StageScope stage(Stage::Film);
     if (gain != 1)
         for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);

@@ -53,7 +53,6 @@ struct RenderLoop::Memory {
     uint64_t serial = 0;
     raytrace::Film enlarged;
     Pacer pacer;
-<<<<<<< HEAD
     FirstHits first;  // of the picture in work
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
@@ -62,11 +61,7 @@ struct RenderLoop::Memory {
     uint32_t only_light = kNone;
     bool noisy = true;  // as far as is known
     void follow(const Step& step);
-    std::unique_ptr<Scene> closer;  // displaced meshes diced for the refined picture
-    std::shared_ptr<ShownScene> closer_of;
-=======
     std::optional<ViewOrder> dices_for;  // what the redicer was started for; none: a smaller picture
->>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
 };
 
 // Pictures of anything else say nothing about the next one.
@@ -403,13 +398,9 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         to->refined = step.scale == 1 && step.samples == step.whole_samples &&
                       (step.pass == Pass::Refined || step.whole_samples == 1);
         finish_picture(step, *to);
-<<<<<<< HEAD
         times.present = present.ms() + filter;
-=======
-        times.present = present.ms();
         to->quick = step.pass == Pass::Quick;
         to->ms = watch.ms();
->>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
         publish(std::move(to));
     }
     times.total = watch.ms();
@@ -520,13 +511,9 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     const raytrace::Film* film = &to.film;
     bool small = film->width != to.width || film->height != to.height;
     if (shows_guide(step.display.aov))
-<<<<<<< HEAD
-        make_guide(*step.scene->scene, to.width, to.height, to.guide);
+        make_guide(scene, to.width, to.height, to.guide);
     else if (small && 2 * film->width >= to.width)
         take_guide(memory_->first, to.view, to.guide);
-=======
-        make_guide(scene, to.width, to.height, to.guide);
->>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
     else if (small)  // a quarter of the rays says where the edges are
         make_guide(scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
     else

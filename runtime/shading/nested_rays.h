@@ -83,16 +83,9 @@ class SmoothSurface {
     // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
     // both accounts, where it is flat, and where the surface is hollow.
     vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
-<<<<<<< HEAD
-=======
-    // The same for those of sixteen rays that `lanes` has bits for: fills their `up`; the bits of
-    // those where it is not 0.
-    uint32_t ways_from(const raytrace::HitBatch& hits, const uint32_t* hit, uint32_t lanes,
-                       raytrace::LeavingRays& rays);
     // How its unit normal on the side that the hit's ray came from turns over the hit's footprint,
     // a pixel in x and in y. False where it is flat.
     bool bend_at(const raytrace::HitBatch& hits, uint32_t hit, vec3& dNdx, vec3& dNdy);
->>>>>>> 99d29f75ae0fbebeda0f14c2bbbe8c5199a4b4f1
 
   private:
     // What a row of the scene has for its normals.

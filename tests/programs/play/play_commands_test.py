@@ -102,7 +102,6 @@ class Session:
             self.finish_line(line, line)
         self.window.recorded(self.record, rf"^{word}\b", done + 1)
 
-<<<<<<< HEAD
     def opened_menu(self, before, x):
         """The first and the last line of the menu that opens under its title, as soon as it is drawn and stays. What
         changes far below it, as a message that goes, is none of it."""
@@ -121,7 +120,7 @@ class Session:
             last = menu
             time.sleep(0.15)
         raise AssertionError("no menu opens")
-=======
+
     def finish_line(self, line, typed):
         """The palette is open: what is typed makes it that line."""
         closed = self.count("panel commands")
@@ -130,7 +129,6 @@ class Session:
         self.window.key("Return")
         self.lines += ["commands", line, "panel commands"]
         self.window.recorded(self.record, "^panel commands$", closed + 1)
->>>>>>> bfc037f9ba323c59b28bea6d37fa0cf1cc39e027
 
     def click_menu(self, path, menus):
         """The title is the menu's place among the words of the bar, the entry its place in the menu."""
