@@ -36,9 +36,12 @@ constexpr PassRow kPasses[] = {
      "targets are mixed", "a mesh has morph targets", "no mesh has morph targets"},
     {"displacement each frame",
      [](const Scene& s) {
-         return any_shape(s, [](const Shape& shape) { return shape.vertex_work != nullptr; });
+         return any_shape(s, [](const Shape& shape) {
+             return shape.vertex_work && shape.kind == raytrace::GeometryKind::Deforming;
+         });
      },
-     "shaders move vertices", "a displacement or transformation is worn", "no shader moves vertices"},
+     "shaders move vertices", "a displacement or transformation is worn by what deforms",
+     "no shader moves vertices, or once for all frames"},
     {"nested rays", [](const Scene& s) {
          return any_calls(s, {"trace", "gather", "occlusion", "indirectdiffuse"});
      },
