@@ -183,7 +183,8 @@ TEST_F(ImageIo, BandsGiveTheBytesOfTheWholePicture) {
                 }
                 band.hold_band(film.width, top, std::min(32, film.height - top));
                 const size_t first = size_t(top) * size_t(film.width);
-                std::copy_n(film.rgba.begin() + ptrdiff_t(first), band.rgba.size(), band.rgba.begin());
+                std::copy_n(film.rgba.begin() + ptrdiff_t(first), band.rgba.size(),
+                            band.rgba.begin());
                 for (size_t k = 0; k < band.aovs.size(); ++k)
                     std::copy_n(film.aovs[k].values.begin() + ptrdiff_t(first), band.rgba.size(),
                                 band.aovs[k].values.begin());
