@@ -34,9 +34,10 @@ class Display:
         self.width, self.height = width, height
         self.folder = Path(tempfile.mkdtemp(prefix="kinora_display_"))
         read, write = os.pipe()
+        # -r: a key does not repeat by itself where the processors are busy as it is pressed.
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(self.folder),
-             "-nolisten", "tcp", "-noreset"], pass_fds=[write], stderr=subprocess.DEVNULL)
+             "-nolisten", "tcp", "-noreset", "-r"], pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as numbers:
             self.name = ":" + numbers.readline().strip()

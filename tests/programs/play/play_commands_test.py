@@ -134,6 +134,7 @@ class Session:
         """The title is the menu's place among the words of the bar, the entry its place in the menu."""
         menu, entry = path.split("/")
         width = self.display.width
+        self.settle()  # the panels of a scene just opened are drawn, and are none of the menu
         rgb = self.display.rgb()
         ground = rgb[3 * (4 * width + 2):3 * (4 * width + 3)]
         inked = [any(rgb[3 * (y * width + x):3 * (y * width + x) + 3] != ground for y in range(4, 18)) for x in range(600)]
@@ -163,6 +164,8 @@ def menus_of(table):
 
 
 class CommandsTest(unittest.TestCase):
+    maxDiff = None
+
     def setUp(self):
         self.folder = Path(tempfile.mkdtemp(prefix="kinora_commands_"))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
@@ -173,15 +176,19 @@ class CommandsTest(unittest.TestCase):
 
     def in_window(self, session, table):
         """All rows; what was seen before and after each."""
-        menus, seen = menus_of(table), {}
+        menus, seen, opened = menus_of(table), {}, ""
         first = session.state("first")
         if "editor" in first["panels"].split():
             session.say("panel editor")  # it opens the shader of what is selected by itself
         for word, row in table.items():
             if word == "quit":
                 continue
-            session.say("open " + (BENDER if word == "clip" else WALKER), "wait refined",
-                        *filter(None, map(str.strip, row.setup.split(";"))), "wait refined")
+            scene = BENDER if word == "clip" else WALKER
+            if scene != opened:
+                session.say("open " + scene)
+            session.say("wait refined", *filter(None, map(str.strip, row.setup.split(";"))), "wait refined")
+            # What these change is none of the scene's.
+            opened = scene if row.changes in ("Picture", "Panels") else ""
             before = session.state(f"{word}_before")
             session.act(word, row, menus)
             session.say("wait picture")
@@ -193,6 +200,8 @@ class CommandsTest(unittest.TestCase):
                 session.window.recorded(session.record, rf"^screenshot {word}\.shot\.png$")
             if row.changes == "Panels":
                 session.say(f"{word} {row.example}".strip())  # as it was before
+            else:  # an open editor opens the shader of what is selected by itself
+                session.say(*(f"panel {p}" for p in after["panels"].split() if p not in before["panels"].split()))
             seen[word] = before, after
         return first, seen
 

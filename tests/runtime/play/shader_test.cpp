@@ -319,8 +319,12 @@ TEST(Texts, BoundOnesAreTheirWearersAlone) {
     Player& player = played.player;
     EXPECT_EQ(played.script("select_material wall-material; bind metal; wait refined"), "");
     for (const MaterialInfo& material : player.scene()->materials) {
-        if (material.id == "wall-material") EXPECT_EQ(material.shader, "metal");
-        if (material.id == "trim-material") EXPECT_EQ(material.shader, "plaster");
+        if (material.id == "wall-material") {
+            EXPECT_EQ(material.shader, "metal");
+        }
+        if (material.id == "trim-material") {
+            EXPECT_EQ(material.shader, "plaster");
+        }
     }
     EXPECT_EQ(played.script("select_material trim-material; edit"), "");
     EXPECT_NE(player.shader().text.find("surface plaster"), std::string::npos);

@@ -11,26 +11,39 @@ namespace kinora::play {
 
 namespace {
 
+enum class Scrolls {
+    Inside,  // what is in the panel does
+    Down,    // the panel as a whole; its texts are as wide as it is
+    Both,
+};
+
 struct PanelRow {
     const char* name;  // as the command `panel` has it
     const char* title;
     Area area;
     bool at_start;  // open the first time
-    bool scrolls;   // as a whole; others scroll what is in them
+    Scrolls scrolls;
 };
 constexpr PanelRow kPanels[] = {
-    {"scene", "Scene", Area::Left, true, false},
-    {"parameters", "Parameters", Area::Left, true, false},
-    {"lights", "Lights", Area::Left, false, true},
-    {"quality", "Quality", Area::Left, false, true},
-    {"editor", "Shader", Area::Right, true, false},
-    {"pixel", "Pixel", Area::Right, true, true},
-    {"library", "Library", Area::Right, false, false},
-    {"explained", "Explained", Area::Right, false, true},
-    {"source", "Source", Area::Right, false, false},
-    {"findings", "Findings", Area::Bottom, false, false},
-    {"times", "Frame times", Area::Bottom, false, true},
+    {"scene", "Scene", Area::Left, true, Scrolls::Inside},
+    {"parameters", "Parameters", Area::Left, true, Scrolls::Inside},
+    {"lights", "Lights", Area::Left, false, Scrolls::Both},
+    {"quality", "Quality", Area::Left, false, Scrolls::Both},
+    {"editor", "Shader", Area::Right, true, Scrolls::Inside},
+    {"pixel", "Pixel", Area::Right, true, Scrolls::Both},
+    {"library", "Library", Area::Right, false, Scrolls::Inside},
+    {"explained", "Explained", Area::Right, false, Scrolls::Down},
+    {"source", "Source", Area::Right, false, Scrolls::Inside},
+    {"findings", "Findings", Area::Bottom, false, Scrolls::Inside},
+    {"times", "Frame times", Area::Bottom, false, Scrolls::Both},
 };
+
+ImGuiWindowFlags scroll_flags(Scrolls scrolls) {
+    if (scrolls == Scrolls::Down) return 0;
+    if (scrolls == Scrolls::Both) return ImGuiWindowFlags_HorizontalScrollbar;
+    return ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+}
+
 // Open panels without a place in an area.
 constexpr const char* kOverlays[] = {"hud", "code", "keys", "commands"};
 
@@ -183,11 +196,7 @@ void Ui::draw_area(Area area, const Box& box) {
             if (ImGui::BeginTabItem(title.c_str(), &stays,
                                     asked ? ImGuiTabItemFlags_SetSelected : 0)) {
                 if (ImGui::GetFrameCount() >= 3) front = row.name;
-                ImGui::BeginChild(
-                    row.name, {0, 0}, false,
-                    row.scrolls
-                        ? ImGuiWindowFlags_HorizontalScrollbar
-                        : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+                ImGui::BeginChild(row.name, {0, 0}, false, scroll_flags(row.scrolls));
                 draw_panel(row.name);
                 ImGui::EndChild();
                 ImGui::EndTabItem();

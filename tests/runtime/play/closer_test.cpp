@@ -1,0 +1,67 @@
+// tests/runtime/play/closer_test.cpp: displaced meshes are diced again while the camera comes closer,
+// between pictures that are not refined. The oracle is the refined picture of the same view.
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "../displacement_scenes.h"
+#include "played.h"
+
+namespace kinora {
+namespace {
+
+constexpr const char* kHills =
+    "displacement hills() { P += 0.3 * noise(5 * P) * N; N = calculatenormal(P); }\n"
+    "surface slopes() { normal n = normalize(N); Oi = 1; Ci = color(n) * 0.5 + 0.5; }\n";
+
+// A floor that the camera looks down at from 30 above it.
+std::string floor_file() {
+    SceneText scene;
+    scene.cameras =
+        "<camera id=\"eye\"><optics><technique_common><perspective><xfov>50</xfov><znear>0.01</znear>"
+        "<zfar>100</zfar></perspective></technique_common></optics></camera>";
+    scene.camera_node =
+        "<node id=\"eye-node\"><translate>0.3 0.2 30</translate><instance_camera url=\"#eye\"/></node>";
+    scene.square("floor", 2).look("look", kHills, kDisplaced).place("floor", "look");
+    const std::string file =
+        std::filesystem::temp_directory_path() / ("closer_" + std::to_string(getpid()) + ".dae");
+    write(file, scene.text());
+    return file;
+}
+
+double apart(const raytrace::Film& a, const raytrace::Film& b) {
+    EXPECT_EQ(a.rgba.size(), b.rgba.size());
+    double sum = 0;
+    for (size_t k = 0; k < std::min(a.rgba.size(), b.rgba.size()); ++k)
+        for (int c = 0; c < 3; ++c) sum += std::abs(double(a.rgba[k][c]) - b.rgba[k][c]);
+    return sum / (3 * double(a.rgba.size()));
+}
+
+TEST(Closer, MeshesAreDicedAgainWhileTheCameraMoves) {
+    const std::string file = floor_file(), near = "dolly 40";
+    // The first of four samples is the one of one sample.
+    Played exact(small_request(file)), moving(small_request(file, 4), {true, false, nullptr});
+    std::filesystem::remove(file);
+    EXPECT_EQ(exact.script(near + "; wait refined"), "");
+    ASSERT_TRUE(exact.player.picture());
+    const raytrace::Film& fine = exact.player.picture()->film;
+
+    Player& player = moving.player;
+    EXPECT_EQ(moving.script("adapt; filter; refine; " + near), "");
+    ASSERT_TRUE(player.wait_picture(kLong));
+    const double coarse = apart(player.picture()->film, fine);
+    EXPECT_GT(coarse, 1e-3);
+    // A hundredth of a pixel there and back, until the pictures are those of finer meshes.
+    double best = coarse;
+    for (int k = 0; k < 2000 && best > coarse / 4; ++k) {
+        EXPECT_EQ(moving.script(k % 2 ? "orbit -0.001 0" : "orbit 0.001 0"), "");
+        ASSERT_TRUE(player.wait_picture(kLong));
+        best = std::min(best, apart(player.picture()->film, fine));
+        usleep(1000);
+    }
+    EXPECT_LE(best, coarse / 4);
+    EXPECT_FALSE(player.picture()->refined);
+}
+
+}  // namespace
+}  // namespace kinora
