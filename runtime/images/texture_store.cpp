@@ -23,6 +23,7 @@ std::unique_ptr<StoredImage> read_image(const std::string& name, const std::stri
                                         bool outside, bool data) {
     auto image = std::make_unique<StoredImage>();
     image->path = name;
+    image->file = path;
     TextureImage pixels;
     image->error = outside ? kOutside : read_texture_image(path, pixels);
     if (image->error.empty()) {

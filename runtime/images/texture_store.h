@@ -21,7 +21,8 @@ namespace kinora {
 
 // Pixels of a file, shared by all names with that path.
 struct StoredImage {
-    std::string path;
+    std::string path;  // as it was asked for
+    std::string file;  // that was opened for it
     TexturePyramid pyramid;
     TextureFacts facts;
     std::vector<TexturePyramid> faces;       // six, where the file is a cube's faces in a column

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/explain/explain.h"
+#include "runtime/images/texture_store.h"
 #include "runtime/play/clock.h"
 #include "runtime/play/guide.h"
 #include "runtime/trade/knobs.h"
@@ -70,7 +71,10 @@ bool PlayerCore::wait_for(const std::function<bool()>& reached, double seconds) 
     auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     while (true) {
         take_news();
-        if (reached()) return true;
+        if (reached()) {
+            watch_images();
+            return true;
+        }
         std::unique_lock lock(wake_mutex);
         if (!woken.wait_until(lock, end, [&] { return news; })) return false;
         news = false;
@@ -82,6 +86,7 @@ void PlayerCore::take_news() {
     for (const Answer& answer : loop.take_answers()) answer();
     add_new(frame_findings, loop.take_findings());
     note_stop();
+    watch_images();
     bool reload = false;
     {
         std::lock_guard lock(wake_mutex);
@@ -92,6 +97,16 @@ void PlayerCore::take_news() {
         maker.open(request, edits, false);
     }
     merge_findings();
+}
+
+// Images that shaders name are read when a picture asks for them.
+void PlayerCore::watch_images() {
+    if (!textures || textures->images() == images_watched) return;
+    images_watched = textures->images();
+    textures->each_image([&](const StoredImage& image) {
+        if (std::ranges::find(files, image.file) == files.end()) files.push_back(image.file);
+    });
+    watch.watch(files);
 }
 
 constexpr int kQuickRank = 0;  // presets come behind it
@@ -110,7 +125,9 @@ void PlayerCore::note_stop() {
     const auto picture = loop.picture();
     if (!picture || picture->serial == noted || state.time.playing) return;
     if (!maker.idle() || !loop.caught_up()) return;
-    const bool refined = picture->refined && loop.idle() && !quality.empty();
+    // Of one sample a pixel, the quick one is refined as well.
+    const bool refined =
+        state.picture.refine && picture->refined && loop.idle() && !quality.empty();
     if (!refined && !picture->quick) return;
     noted = picture->serial;
     int rank = kQuickRank;
@@ -138,7 +155,7 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
     scene_findings = shown->findings;
     take_text(*shown);
     exit_code = shown->exit_code;
-    if (!shown->files.empty()) watch.watch(shown->files);
+    if (!shown->files.empty()) watch.watch(files = shown->files);
     if (shown->swapped) return take_swap(*shown);
     if (!shown->scene) {
         if (!info) load = LoadState::Failed;
@@ -146,6 +163,8 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
     }
     bool first = !info || shown->replaces_camera;
     info = shown->info;
+    textures = shown->scene->textures;
+    images_watched = 0;
     request = shown->request;
     if (first) document = {};
     for (const MaterialInfo& material : info->materials)
@@ -418,13 +437,14 @@ FreeCamera* PlayerCore::own_camera(std::string& why_not) {
 // What a clock or a late picture has decided is written with all digits, so that the lines lead to
 // the same state.
 void PlayerCore::record_line(const Command& command, const std::vector<std::string>& arguments,
-                             const TimeState& before) {
+                             const TimeState& before, const std::string& turned) {
     if (!record.is_open()) return;
     if (since_recorded >= 1e-3) record << fmt::format("wait {}\n", since_recorded);
     since_recorded = 0;
     if (before.playing) record << fmt::format("seek {}\n", before.frame);
-    if (!taken_camera.empty())
-        record << "stand " << quoted(std::exchange(taken_camera, {})) << '\n';
+    const std::string taken = std::exchange(taken_camera, {});
+    if (!taken.empty() || !turned.empty())
+        record << "stand " << quoted(taken.empty() ? turned : taken) << '\n';
     record << command.word;
     for (const std::string& argument : arguments) record << ' ' << quoted(argument);
     record << std::endl;

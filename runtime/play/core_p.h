@@ -47,6 +47,9 @@ struct PlayerCore {
     std::optional<std::pair<raytrace::Camera, dvec3>> answered_view;
 
     FileWatch watch;
+    std::vector<std::string> files;  // that are watched
+    std::shared_ptr<TextureStore> textures;  // of the scene shown
+    int images_watched = 0;
     RenderLoop loop;
     SceneMaker maker;
     Thumbnails thumbnails;
@@ -72,8 +75,10 @@ struct PlayerCore {
     // The camera that is moved by hand, as the picture shows it; null with a reason.
     FreeCamera* own_camera(std::string& why_not);
     void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
+    // `turned`: where the turntable had the camera before; "" where it stands still.
+    void watch_images();
     void record_line(const Command& command, const std::vector<std::string>& arguments,
-                     const TimeState& before);
+                     const TimeState& before, const std::string& turned);
     void restore_text();
     void show_panel(const std::string& name);  // opens it, in front
     void forget_stops();   // the files have changed, or the scene

@@ -87,9 +87,13 @@ CommandResult Player::run(std::string_view word, const std::vector<std::string>&
     }
     if (CommandResult fits = check(*command, arguments); !fits.done) return fits;
     const TimeState before = core_->state.time;
+    const CameraState& camera = core_->state.camera;
+    std::string turned;
+    if (core_->record.is_open() && before.playing && camera.turntable && camera.free)
+        turned = camera_text(camera.own);
     CommandResult result = core_->act(size_t(command - commands().data()), arguments);
     core_->send_order();
-    if (result.done) core_->record_line(*command, arguments, before);
+    if (result.done) core_->record_line(*command, arguments, before, turned);
     return result;
 }
 

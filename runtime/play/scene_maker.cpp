@@ -269,7 +269,7 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
     shown.scene->textures->each_image(
-        [&](const StoredImage& image) { shown.files.push_back(image.path); });
+        [&](const StoredImage& image) { shown.files.push_back(image.file); });
     shown.redicer = std::move(built.redicer);
     shown.settings = frame_settings(request_, *shown.scene, diagnostics);
     auto info = scene_info(*shown.scene, {base_->description, texts_}, request_, shown.rate);

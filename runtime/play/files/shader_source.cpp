@@ -100,8 +100,9 @@ bool is_same(const std::string& file, std::string_view bytes) {
 
 TextRange text_range(const rsl::Shader& shader, const SourceFiles& files) {
     const Location where = shader.definition ? shader.definition->span.where : Location{};
-    if (where.file >= files.count() || !library_shader_text(shader.name).empty()) return {};
+    if (where.file >= files.count()) return {};
     const std::string_view text = files.text(where.file);
+    if (text == library_shader_text(shader.name)) return {};  // others may have its name
     if (!is_xml(text)) return {where.file, 0, text.size()};
     const auto code = element_around(text, where.begin, "code");
     return code ? TextRange{where.file, code->first, code->second} : TextRange{};
