@@ -159,8 +159,6 @@ class Tour(unittest.TestCase):
             self.skipTest("needs " + ", ".join(displays.missing()))
         with displays.Display(1280, 800) as display:
             for scene in self.scenes():
-                if scene.stem == "layers":
-                    continue  # a slow frame loses the last step of the drag (issue 15)
                 with self.subTest(scene.stem):
                     shutil.rmtree(self.folder / "scene", ignore_errors=True)
                     (self.folder / "record.txt").unlink(missing_ok=True)
