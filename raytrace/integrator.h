@@ -81,8 +81,8 @@ class IntegratorScratch {
 using Progress = FunctionRef<bool(int done, int total)>;
 
 // Fills the film (resized to the camera's picture if it differs; of a band the rows that it holds).
-// For each sample, front to back: C += T Ci, T *= 1 - Oi. The same bits for any number of threads and any order of tiles, if
-// shading is so too. Returns false if progress stopped it.
+// For each sample, front to back: C += T Ci, T *= 1 - Oi. The same bits for any number of threads
+// and any order of tiles, if shading is so too. Returns false if progress stopped it.
 bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
                const IntegratorSettings& settings, IntegratorScratch& scratch,
                IntegratorCounters& counters, const Progress* progress = nullptr);

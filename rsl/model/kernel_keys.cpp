@@ -90,7 +90,7 @@ KernelKey space_key(std::string_view space, bool to_current, int row, int column
 
 KernelKey light_key(size_t statement, LightColumn column, int component) {
     return {.kind = KeyKind::LightRecord,
-            .form = column == kLightL                             ? ComponentForm::Triple
+            .form = column == kLightL                               ? ComponentForm::Triple
                     : column == kLightLit || column == kLightSpread ? ComponentForm::Single
                                                                     : ComponentForm::Color,
             .component = uint8_t(component),

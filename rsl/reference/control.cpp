@@ -268,7 +268,8 @@ RefFlow Reference<Real>::illuminate(const Stmt& stmt, const Expr* position, cons
     in_solar = outer_solar;
     for (Source& source : sources_)
         if (source.stmt == &stmt)
-            source = {&stmt, global(Global::L), global(Global::Cl), global(Global::Ol), true, spread};
+            source = {&stmt, global(Global::L), global(Global::Cl), global(Global::Ol), true,
+                      spread};
     return flow;
 }
 

@@ -22,7 +22,8 @@ std::string light_name(const Scene& scene, const LightSource& source) {
 
 // About what stands still or moves as a whole, in current space; nothing where vertices move.
 bool find_sphere(const Scene& scene, const Shape& shape, Sphere& sphere) {
-    if (shape.kind == raytrace::GeometryKind::Deforming || shape.rest_positions.empty()) return false;
+    if (shape.kind == raytrace::GeometryKind::Deforming || shape.rest_positions.empty())
+        return false;
     const bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
     const dvec3 anchor = scene.meshes[shape.mesh].anchor;
     dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
@@ -86,7 +87,8 @@ void explain_lights(const Scene& scene, ExplainedRows& rows) {
             rows.leave_out(subject, "no shadow rays", "ambient light has no direction");
             continue;
         }
-        const bool wide = std::ranges::any_of(statements, [](const auto& s) { return s.spread >= 0; });
+        const bool wide =
+            std::ranges::any_of(statements, [](const auto& s) { return s.spread >= 0; });
         rows.add(subject,
                  source.surface != kNone ? "an area light, by samples"
                  : wide                  ? "a cone of the sky, by samples"
@@ -97,7 +99,7 @@ void explain_lights(const Scene& scene, ExplainedRows& rows) {
         rows.leave_out(subject, "no automatic shadow rays",
                        scene.options.shadows != ShadowMode::Auto ? "--shadows"
                        : light.shadows                           ? "the light says so"
-                                                                 : "its shader asks for them itself");
+                                       : "its shader asks for them itself");
     }
     std::set<uint32_t> looks, placed;
     for (const Surface& surface : scene.surfaces) looks.insert(surface.look);

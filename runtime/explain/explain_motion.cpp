@@ -30,10 +30,12 @@ void explain_blending(const Scene& scene, const Shape& shape, const std::string&
         return;
     }
     const double left = skin::narrowest(shape.skin_mesh, shape.palette);
-    rows.add(subject,
-             fmt::format("matrices are blended: where it is narrowed most, {:.3g} of the radius is left "
-                         "in the last frame", left),
-             "COLLADA means it so; --skin dual keeps the radius");
+    rows.add(
+        subject,
+        fmt::format("matrices are blended: where it is narrowed most, {:.3g} of the radius is left "
+                    "in the last frame",
+                    left),
+        "COLLADA means it so; --skin dual keeps the radius");
 }
 
 std::string why_it_deforms(const Scene& scene, const Shape& shape) {

@@ -13,7 +13,7 @@ struct PassRow {
     const char* name;
     bool (*runs)(const Scene&);
     const char* what;
-    const char* because;     // it runs
+    const char* because;  // it runs
     const char* because_not;
 };
 
@@ -30,29 +30,43 @@ bool any_calls(const Scene& scene, std::initializer_list<const char*> services) 
 }
 
 constexpr PassRow kPasses[] = {
-    {"skins", [](const Scene& s) { return any_shape(s, [](const Shape& shape) { return shape.skin != kNone; }); },
+    {"skins",
+     [](const Scene& s) {
+         return any_shape(s, [](const Shape& shape) { return shape.skin != kNone; });
+     },
      "joints move vertices", "a mesh has a skin", "no mesh has a skin"},
-    {"morphs", [](const Scene& s) { return any_shape(s, [](const Shape& shape) { return shape.morph != kNone; }); },
+    {"morphs",
+     [](const Scene& s) {
+         return any_shape(s, [](const Shape& shape) { return shape.morph != kNone; });
+     },
      "targets are mixed", "a mesh has morph targets", "no mesh has morph targets"},
     {"displacement each frame",
      [](const Scene& s) {
-         return any_shape(s, [](const Shape& shape) { return shape.vertex_work != nullptr; });
+         return any_shape(s, [](const Shape& shape) {
+             return shape.vertex_work && shape.kind == raytrace::GeometryKind::Deforming;
+         });
      },
-     "shaders move vertices", "a displacement or transformation is worn", "no shader moves vertices"},
-    {"nested rays", [](const Scene& s) {
+     "shaders move vertices", "a displacement or transformation is worn by what deforms",
+     "no shader moves vertices, or once for all frames"},
+    {"nested rays",
+     [](const Scene& s) {
          return any_calls(s, {"trace", "gather", "occlusion", "indirectdiffuse"});
      },
-     "shaders send rays", "trace, gather, occlusion or indirectdiffuse is called", "no shader calls them"},
+     "shaders send rays", "trace, gather, occlusion or indirectdiffuse is called",
+     "no shader calls them"},
     {"footprints", [](const Scene& s) { return reads_footprints(s); }, "rays carry differentials",
      "a shader filters, reads du or dv, or bakes", "no shader reads du or dv"},
-    {"opacity", [](const Scene& s) {
-         return std::ranges::any_of(s.shader_instances, [](const auto& l) { return l->opacity.has_value(); });
+    {"opacity",
+     [](const Scene& s) {
+         return std::ranges::any_of(s.shader_instances,
+                                    [](const auto& l) { return l->opacity.has_value(); });
      },
      "rays go on behind surfaces", "an Oi is not 1", "every Oi is 1"},
     {"volumes", [](const Scene& s) { return !s.volumes.empty() || s.atmosphere != kNone; },
-     "segments of rays are shaded", "an object or the scene has a volume shader", "no volume shader"},
-    {"imager", [](const Scene& s) { return s.imager != kNone; }, "it runs over the finished picture",
-     "the scene has one", "the scene has none"},
+     "segments of rays are shaded", "an object or the scene has a volume shader",
+     "no volume shader"},
+    {"imager", [](const Scene& s) { return s.imager != kNone; },
+     "it runs over the finished picture", "the scene has one", "the scene has none"},
 };
 
 }  // namespace

@@ -95,7 +95,8 @@ bool make_bands(Scene& scene, const FrameSettings& settings, raytrace::Film& fil
                 raytrace::IntegratorCounters& counters, size_t& bad,
                 const raytrace::Progress* progress) {
     CHECK_EQ(settings.band_rows % settings.integrator.tile, 0);
-    const int height = scene.view.height, bands = (height + settings.band_rows - 1) / settings.band_rows;
+    const int height = scene.view.height,
+              bands = (height + settings.band_rows - 1) / settings.band_rows;
     for (int band = 0; band < bands; ++band) {
         const int first = band * settings.band_rows;
         film.hold_band(scene.view.width, first, std::min(settings.band_rows, height - first));

@@ -18,7 +18,7 @@ struct LightPoints {
     const float* N[3];
     const float* accel[3];
     const float* error[3];
-    const float* Ng[3];  // accel space
+    const float* Ng[3];                 // accel space
     const uint32_t* normals = nullptr;  // Grid::normals of these points
     const float* rng = nullptr;
     const uint32_t* surface = nullptr;  // the surface that is lit, kNone: none

@@ -203,8 +203,7 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
 void LightRecords::dark_records(Making& making, size_t l) const {
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))
-        dark_records(making, statement, binding,
-                     making.record_count + samples_of(l, statement));
+        dark_records(making, statement, binding, making.record_count + samples_of(l, statement));
 }
 
 void LightRecords::dark_records(Making& making, const LightOutputs& statement,
@@ -279,8 +278,8 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     const size_t samples = samples_of(l, statement), end = making.record_count + samples;
     const float* angle = out[size_t(statement.spread)];
-    const bool wide = statement.L[0] >= 0 && std::any_of(angle, angle + at.count,
-                                                         [](float a) { return a != 0; });
+    const bool wide =
+        statement.L[0] >= 0 && std::any_of(angle, angle + at.count, [](float a) { return a != 0; });
     if (!wide) make_record(making, statement, binding, out, false, nullptr);
     std::span<float*> rows = arena.allocate_span<float*>(out.size());
     SkyCones cones{at.count, {}, angle, at.rng, raytrace::hash(uint32_t(l), frame_.seed)};

@@ -18,7 +18,7 @@ namespace kinora {
 
 namespace {
 
-constexpr float kFlat = 1e-4f;      // a plane that rises less, a unit of way, is the facet's
+constexpr float kFlat = 1e-4f;  // a plane that rises less, a unit of way, is the facet's
 
 vec3 unit(vec3 v) {
     float square = glm::dot(v, v);
@@ -103,7 +103,8 @@ bool SmoothSurface::bend_at(const raytrace::HitBatch& hits, uint32_t hit, vec3& 
     const uint32_t* vertex = &row_.triangles[3 * size_t(primitive)];
     for (size_t k = 0; k < 3; ++k) {
         n[k] = row_.normals_from_rest * n[k];
-        at[k] = row_.from_rest * (vec3(row_.positions[vertex[k]]) - vec3(row_.positions[vertex[0]]));
+        at[k] =
+            row_.from_rest * (vec3(row_.positions[vertex[k]]) - vec3(row_.positions[vertex[0]]));
     }
     const float u = hits.u[hit], v = hits.v[hit];
     const vec3 N = (1 - u - v) * n[0] + u * n[1] + v * n[2], Ng = triple(hits.Ng, hit);

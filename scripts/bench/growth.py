@@ -4,7 +4,8 @@ row a size, and the exponent between the last two sizes. It asserts nothing.
 
     scripts/bench/growth.py [--large] [KINORA_RENDER [WORD...]]
     scripts/bench/growth.py --moving [KINORA_RENDER]  # what a frame's update costs where 1 % of the
-                                                      # nodes move; writes it into docs/trade.md
+                                                      # nodes move, by the sizes 1 to 10,000: a table, .csv and .svg
+                                                      # for docs/trade.md
 
 The scenes are a field of squares seen from above. Times are the CPU time of a run on one thread less
 that of a run that only loads (`--list lights`), the least of three. WORD: rows whose names hold it.
@@ -165,6 +166,8 @@ def measure_moving(program):
     for nodes, ms in rows:
         lines.append(f"| {nodes:,} | {max(1, nodes // 100)} | " + " | ".join(f"{x:.4f}" for x in ms) + f" | {sum(ms):.4f} |")
     print("\n".join(lines))
+    table = "".join(f"{nodes},{max(1, nodes // 100)}," + ",".join(f"{x:.4f}" for x in ms) + "\n" for nodes, ms in rows)
+    (root / "docs/images/growth_moving.csv").write_text("nodes,moving," + ",".join(f"{s}_ms" for s in STAGES) + "\n" + table)
     plot(rows, root / "docs/images/growth_moving.svg")
     page = root / "docs/trade.md"
     begin, end = "<!-- measured by scripts/bench/growth.py --moving -->\n", "<!-- end of what moves -->"

@@ -29,9 +29,9 @@ BEGIN, END = "<!-- measured by scripts/bench/unused.py -->\n", "<!-- end of what
 FRAMES = 10  # of a run
 # What is added, how many, and what the upper end of the interval must stay below.
 ROWS = (
-    ("unused channels of 20 keys", 500, lambda n: content.unused_animations(n, 20), 1.02),
-    ("unused effects with RSL", 1000, content.unused_effects, 1.02),
-    ("unused textures", 200, content.unused_images, 1.02),
+    ("unused channels of two keys", 10000, lambda n: content.unused_animations(n, 2), 1.02),
+    ("unused effects of 100 lines", 1000, content.unused_effects, 1.02),
+    ("unused textures of 4096x4096", 200, content.unused_images, 1.02),
     ("meshes out of view", 500, content.meshes_out_of_view, 1.05),
     ("nodes that stand", 1000, content.static_nodes, 1.02),
     ("black lights", 100, content.black_lights, 1.02),

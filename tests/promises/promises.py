@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """tests/promises/promises.py: the table of numerical promises against the tests that hold them.
 
-    promises.py             # checks the table; exit 1 where a promise has no test
+    promises.py             # checks the table; exit 1 where a promise has no test. The build runs it
     promises.py --markdown  # prints docs/promises.md (scripts/docs)
 """
 import os
@@ -17,10 +17,15 @@ TESTS = HERE.parent
 SUITES = ("Extremes", "SamplerExtremes", "SkinExtremes", "ExtremeMesh", "RenderExtremes", "LongSources", "FarAndSmall",
           "Cracks", "SkinTwist")
 TIERS = ("precise", "fast", "both", "-")
+# Stages that machine code or intrinsics are made for: their tests run on AArch64 too.
+PORTED = {"jit", "rsl", "anim", "skin"}
+# Cases whose outcome is a finding have a row in its table, which starts with their number.
+FINDINGS = TESTS / "programs/render/extreme_findings_test.py"
+FINDINGS_TEST = f"{FINDINGS.name}:test_code_place_and_severity"
 # The cases that were listed before any of them was built. Each has a row; later rows need no number.
 CASES = range(1, 95)
 
-Promise = namedtuple("Promise", "line numbers case outcome tier tests")
+Promise = namedtuple("Promise", "line numbers stages case outcome tier tests")
 # Of a test: the folder of tests that it stands in, and whether AArch64 runs it too.
 Test = namedtuple("Test", "stage on_arm")
 
@@ -35,11 +40,11 @@ def read_table(text):
             sections.append((line[3:].strip(), []))
             continue
         parts = [part.strip() for part in line.split(" | ")]
-        if len(parts) != 5 or not all(parts) or not sections or not re.fullmatch(r"-|\d+( \d+)*", parts[0]):
-            wrong.append(f"{number}: expected 'numbers | case | outcome | tier | tests' below a '== title'")
+        if len(parts) != 6 or not all(parts) or not sections or not re.fullmatch(r"-|\d+( \d+)*", parts[0]):
+            wrong.append(f"{number}: expected 'numbers | stages | case | outcome | tier | tests' below a '== title'")
             continue
-        numbers = [int(n) for n in parts[0].split() if n != "-"]
-        promise = Promise(number, numbers, *parts[1:4], [test for test in parts[4].split() if test != "-"])
+        numbers, stages, tests = ([word for word in parts[k].split() if word != "-"] for k in (0, 1, 5))
+        promise = Promise(number, list(map(int, numbers)), stages, *parts[2:5], tests)
         if promise.tier not in TIERS:
             wrong.append(f"{number}: the tier is one of {', '.join(TIERS)}, not '{promise.tier}'")
         sections[-1][1].append(promise)
@@ -89,9 +94,19 @@ def check(sections, tests):
     wrong += [f"{p.line}: there is no case {number}" for p in rows for number in p.numbers if number not in CASES]
     wrong += [f"{p.line}: '{p.case}' has no test; where a case concerns nothing, the outcome begins with 'nothing:'"
               for p in rows if not p.tests and not p.outcome.startswith("nothing:")]
-    # What shaders compute and what moves a scene holds on every target.
-    wrong += [f"{p.line}: no test of '{p.case}' runs on AArch64" for p in rows
-              if p.tier != "-" and p.tests and not any(tests[t].on_arm for t in p.tests if t in tests)]
+    for p in rows:
+        known = [tests[t] for t in p.tests if t in tests]
+        there = {t.stage for t in known}
+        wrong += [f"{p.line}: no test of '{p.case}' stands in tests/{stage}" for stage in p.stages if stage not in there]
+        wrong += [f"{p.line}: '{p.case}' has a test of the stage '{stage}' without naming it"
+                  for stage in sorted(there - set(p.stages))]
+        wrong += [f"{p.line}: no test of '{p.case}' in tests/{stage} runs on AArch64" for stage in p.stages
+                  if stage in PORTED and stage in there and not any(t.on_arm for t in known if t.stage == stage)]
+    of_findings = set(map(int, re.findall(r'^    \((\d+), "', FINDINGS.read_text(), re.M)))
+    told = {number for p in rows if FINDINGS_TEST in p.tests for number in p.numbers}
+    wrong += [f"case {number} has a finding in {FINDINGS.name}, which no row of it names"
+              for number in sorted(of_findings - told)]
+    wrong += [f"case {number} has no finding in {FINDINGS.name}, which its row names" for number in sorted(told - of_findings)]
     return wrong
 
 
@@ -99,18 +114,28 @@ def markdown(sections, tests):
     lines = ["# Numerical promises", "",
              "What holds at the extremes, with the tests that hold it. `tests/promises/promises.table` is its source.",
              "The column of numbers has those of the first list of cases, 1 to 94. Each of them has a row.",
-             "Stages are the folders of `tests` that hold the case. Tests in *italics* run on AArch64 too.",
+             "Stages are the folders of `tests` whose stage the case concerns. Tests in *italics* run on AArch64 too.",
              "Where a tier is named, tests run on every target: interpreter, AVX2, AVX-512 and NEON.",
              "The precise tier gives the same bits on all of them. [numerics.md](numerics.md) has the reasons.", ""]
     for title, promises in sections:
         lines += [f"## {title}", "", "| | case | what holds | tier | stages | tests |", "|---|---|---|---|---|---|"]
         for p in promises:
             shown = ", ".join(f"*{t}*" if t in tests and tests[t].on_arm else t for t in p.tests)
-            stages = ", ".join(dict.fromkeys(tests[t].stage for t in p.tests if t in tests))
-            numbers = ", ".join(map(str, p.numbers))
+            numbers, stages = ", ".join(map(str, p.numbers)), ", ".join(p.stages)
             lines.append(f"| {numbers} | {p.case} | {p.outcome} | {'' if p.tier == '-' else p.tier} | {stages} | {shown} |")
         lines.append("")
     return "\n".join(lines[:-1])
+
+
+# What is wrong with the table, a change that makes it so, and how many lines more must tell it.
+SPOILED = (
+    ("a promise without its test", ("Extremes.PowOf0", "Extremes.PowOfNought"), 3),
+    ("a case without a row", ("\n44 | ", "\n- | "), 1),
+    ("a stage without a test", ("\n44 | rsl |", "\n44 | rsl runtime |"), 1),
+    ("a stage that is not named", ("\n67 | rsl jit |", "\n67 | rsl |"), 1),
+    ("a finding that is not looked for", ("\n37 | ", "\n37 48 | "), 1),
+    ("a row without a test", ("Extremes.PowOfANegativeToAFractionIs0\n", "-\n"), 3),
+)
 
 
 def main():
@@ -121,10 +146,10 @@ def main():
         return 0
     wrong += check(sections, tests)
     # The check itself must be able to fail.
-    for words, spoiled, most in (("a promise without its test", ("Extremes.PowOf0", "Extremes.PowOfNought"), 3),
-                                 ("a case without a row", ("\n44 | ", "\n- | "), 1)):
-        others, _ = read_table(TABLE.read_text().replace(*spoiled))
-        if len(check(others, tests)) != len(check(sections, tests)) + most:
+    for words, spoiled, more in SPOILED:
+        text = TABLE.read_text()
+        assert spoiled[0] in text, spoiled
+        if len(check(read_table(text.replace(*spoiled, 1))[0], tests)) != len(check(sections, tests)) + more:
             wrong.append(f"{words} was not noticed")
     for line in wrong:
         print(f"{os.path.relpath(TABLE)}:{line}", file=sys.stderr)

@@ -171,7 +171,8 @@ TEST(LowerLights, LightsWriteOneRecordAStatement) {
     EXPECT_EQ(out["light:1:Cl.g"][1], 0.5f);
 }
 
-// What a renderer makes soft shadows of. One direction has no such output, which would cost records.
+// What a renderer makes soft shadows of. One direction has no such output, which would cost
+// records.
 TEST(LowerLights, SolarTellsTheAngleOfItsCone) {
     RunShader light(
         "light l(float width = 0.5;) { solar(vector(0, 0, -1), 0) Cl = 1;"

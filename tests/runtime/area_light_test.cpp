@@ -310,11 +310,13 @@ TEST(AreaLight, GivesTheSameBytesForAnyThreadsAndTargets) {
 // A floor lit from straight above, half of the sky behind a sheet whose edge runs over x = 0.
 constexpr double kSheet = 11;  // above the eye, so that it hides nothing
 SceneText half_sky(const std::string& sun) {
-    SceneText scene = floor_scene(
-        "surface s() { Oi = 1; Ci = 0; illuminance(P, normalize(N), PI/2) Ci += Cl; }");
+    SceneText scene =
+        floor_scene("surface s() { Oi = 1; Ci = 0; illuminance(P, normalize(N), PI/2) Ci += Cl; }");
     scene
-        .mesh("sheet", {{-1000, -1000, kSheet}, {0, -1000, kSheet}, {0, 1000, kSheet}, {-1000, 1000, kSheet}},
-              {0, 1, 2, 0, 2, 3})
+        .mesh(
+            "sheet",
+            {{-1000, -1000, kSheet}, {0, -1000, kSheet}, {0, 1000, kSheet}, {-1000, 1000, kSheet}},
+            {0, 1, 2, 0, 2, 3})
         .place("sheet", "floor-look")
         .rsl_light("sun", sun);
     return scene;
@@ -361,8 +363,7 @@ TEST(Solar, WithoutAnAngleCastsOneHardShadow) {
     Rendering fixed = sunlit("light s() { solar(vector \"world\" (0, 0, -1), 0) Cl = 1; }", 16);
     Rendering given =
         sunlit("light s(float a = 0;) { solar(vector \"world\" (0, 0, -1), a) Cl = 1; }", 16);
-    Rendering small =
-        sunlit("light s() { solar(vector \"world\" (0, 0, -1), 1e-6) Cl = 1; }", 16);
+    Rendering small = sunlit("light s() { solar(vector \"world\" (0, 0, -1), 1e-6) Cl = 1; }", 16);
     for (Rendering* r : {&fixed, &given, &small}) r->frame();
     EXPECT_TRUE(same_bytes(fixed.film, given.film));
     EXPECT_LT(difference(fixed.film, small.film), 1e-6f);

@@ -536,7 +536,8 @@ SceneText mirror_ball(const std::string& turned) {
     for (int j = 0; j <= kUp; ++j)
         for (int i = 0; i <= kRound; ++i) {
             const double up = kPi * j / kUp, turn = 2 * kPi * i / kRound;
-            normals.push_back({std::sin(up) * std::cos(turn), std::cos(up), std::sin(up) * std::sin(turn)});
+            normals.push_back(
+                {std::sin(up) * std::cos(turn), std::cos(up), std::sin(up) * std::sin(turn)});
             at.push_back(kBall * normals.back());
         }
     for (int j = 0; j < kUp; ++j)
@@ -578,8 +579,10 @@ TEST(Footprints, InABallAreThoseOfFiniteDifferences) {
             for (int x = 0; x < 24; ++x) {
                 const dvec2 p = r.place(x, y);
                 if (glm::length(p) > 0.6 * kBall) continue;  // beyond 0.7 it shows the other side
-                const dvec2 dx = seen_in_ball(p + dvec2(step, 0)) - seen_in_ball(p - dvec2(step, 0));
-                const dvec2 dy = seen_in_ball(p + dvec2(0, step)) - seen_in_ball(p - dvec2(0, step));
+                const dvec2 dx =
+                    seen_in_ball(p + dvec2(step, 0)) - seen_in_ball(p - dvec2(step, 0));
+                const dvec2 dy =
+                    seen_in_ball(p + dvec2(0, step)) - seen_in_ball(p - dvec2(0, step));
                 const double scale = pixel / (2 * step);
                 const double du = scale * std::max(std::abs(dx.x), std::abs(dy.x));
                 const double dv = scale * std::max(std::abs(dx.y), std::abs(dy.y));

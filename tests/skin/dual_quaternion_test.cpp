@@ -115,6 +115,31 @@ TEST(DualQuaternion, HalfATurnTakesThePositiveSide) {
     }
 }
 
+// On the way to half a turn no vertex moves faster than the joint does, and what joint matrices
+// lack to half a turn by rounding is half a turn too.
+TEST(DualQuaternion, IsContinuousInTimeUpToHalfATurn) {
+    constexpr int kBetween = 16;
+    auto at = [](double degrees) { return dual(wrung(2, radians(degrees), kBetween)).positions; };
+    std::vector<vec4> before = at(-179);
+    for (int degrees = -178; degrees <= 180; ++degrees) {
+        const std::vector<vec4> now = at(degrees);
+        for (size_t v = 0; v < now.size(); ++v) {
+            // By hand: two unit quaternions half the angle apart, mixed by 1 - w and w.
+            const double w = double(v) / kBetween, half = radians(double(degrees)) / 2;
+            const double turn = 2 * std::atan2(w * std::sin(half), 1 - w + w * std::cos(half));
+            ASSERT_NEAR(now[v].y, std::cos(turn), 1e-5) << degrees << " " << v;
+            ASSERT_NEAR(now[v].z, std::sin(turn), 1e-5) << degrees << " " << v;
+            ASSERT_LE(glm::distance(now[v], before[v]), radians(1.0) + 1e-5) << degrees << " " << v;
+        }
+        before = now;
+    }
+    for (double off : {1e-5, -1e-5}) {
+        const std::vector<vec4> near = at(180 + off);
+        for (size_t v = 0; v < near.size(); ++v)
+            EXPECT_LE(glm::distance(near[v], before[v]), 1e-5) << off << " " << v;
+    }
+}
+
 // Joints of all kinds, half turns, weights of 0 and below, and a last block that is not whole.
 TEST(DualQuaternion, AllKernelsGiveTheSameBits) {
     for (uint32_t influences : {1u, 3u, 4u, 9u}) {

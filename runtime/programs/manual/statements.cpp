@@ -90,7 +90,8 @@ surface teeth(float count = 10;) {
 )"},
     {"solar", "solar([axis, angle]) statement",
      "In a light: parallel light along the axis. An angle is that between the axis and the side of "
-     "a cone, in radians: light comes from a disc of the sky, and shadows are soft. Without an axis "
+     "a cone, in radians: light comes from a disc of the sky, and shadows are soft. Without an "
+     "axis "
      "it comes from all sides.",
      R"(light sun(float intensity = 1; color lightcolor = color (1, 0.95, 0.8);) {
     solar(vector "shader" (0, 0, 1), 0)

@@ -49,8 +49,8 @@ void FirstHits::take(const raytrace::HitBatch& hits) {
         primitive[pixel] = hits.primitive[h];
         u[pixel] = hits.u[h];
         v[pixel] = hits.v[h];
-        P[pixel] = raytrace::triple(hits.P, h);
-        Ng[pixel] = raytrace::triple(hits.Ng, h);
+        P[pixel] = triple(hits.P, h);
+        Ng[pixel] = triple(hits.Ng, h);
     }
 }
 

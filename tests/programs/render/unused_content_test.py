@@ -1,6 +1,7 @@
 """tests/programs/render/unused_content_test.py: what a picture does not need costs nothing in a frame: walker.dae with
 unused content added does as much work as without, counted."""
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -49,27 +50,48 @@ def unused_animations(count, keys):
     return added("animations", text, added("nodes", nodes))
 
 
-def unused_effects(count):
-    code = "surface u(float a = 1;) { color c = 0; float i; for (i = 0; i &lt; 9; i += 1) c += noise(P * i); Ci = c * a; }"
+def unused_effects(count, lines=100):
+    """Effects whose shaders have so many lines each, in materials that nothing wears."""
+    body = "".join(f"c += color(noise(P * {k + 1}), noise(s * {k}), {k} * a) * mix(1, a, s);\n" for k in range(lines))
     effects = "".join(
-        f'<effect id="ue{i}"><profile_RSL><technique sid="t"><code>{code}</code><pass><shader stage="SURFACE"/></pass>'
-        "</technique></profile_RSL></effect>" for i in range(count))
+        f'<effect id="ue{i}"><profile_RSL><technique sid="t"><code>surface u{i}(float a = {i};) {{ color c = 0;\n{body}'
+        'Ci = c; }</code><pass><shader stage="SURFACE"/></pass></technique></profile_RSL></effect>' for i in range(count))
     materials = "".join(f'<material id="um{i}"><instance_effect url="#ue{i}"/></material>' for i in range(count))
     return added("materials", materials, added("effects", effects))
 
 
+def write_pictures(folder, count, side=4096):
+    """The files of unused_images(): one picture by so many names."""
+    first = folder / "unused0.png"
+    if not first.exists():
+        png.write(first, side, side, [bytes([200, 100, 50] * side)] * side)
+    for i in range(1, count):
+        if not (folder / f"unused{i}.png").exists():
+            os.link(first, folder / f"unused{i}.png")
+
+
 def unused_images(count):
-    return added("images", "".join(f'<image id="ui{i}"><init_from>unused{i}.png</init_from></image>' for i in range(count)))
+    """Images of materials that nothing wears."""
+    images = "".join(f'<image id="ui{i}"><init_from>unused{i}.png</init_from></image>' for i in range(count))
+    effects = "".join(
+        f'<effect id="ie{i}"><profile_COMMON><newparam sid="sf"><surface type="2D"><init_from>ui{i}</init_from></surface>'
+        '</newparam><newparam sid="sm"><sampler2D><source>sf</source></sampler2D></newparam><technique sid="c"><lambert>'
+        '<diffuse><texture texture="sm" texcoord="uv"/></diffuse></lambert></technique></profile_COMMON></effect>'
+        for i in range(count))
+    materials = "".join(f'<material id="im{i}"><instance_effect url="#ie{i}"/></material>' for i in range(count))
+    return added("images", images, added("materials", materials, added("effects", effects)))
 
 
 def meshes_out_of_view(count):
     """Behind the camera and below the floor, where no ray of the picture goes."""
-    mesh = ('<geometry id="far-square"><mesh>' + floats("far-p", [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], 3, "XYZ") +
-            '<vertices id="far-v"><input semantic="POSITION" source="#far-p"/></vertices><triangles count="2">'
-            '<input semantic="VERTEX" source="#far-v" offset="0"/><p>0 1 2 0 2 3</p></triangles></mesh></geometry>')
-    nodes = "".join(f'<node><translate>{i % 25} -400 {i // 25}</translate><instance_geometry url="#far-square"/></node>'
+    meshes = "".join(
+        f'<geometry id="far{i}"><mesh>' + floats(f"far{i}-p", [-1, -1, 0, 1, -1, 0, 1, 1, i, -1, 1, 0], 3, "XYZ") +
+        f'<vertices id="far{i}-v"><input semantic="POSITION" source="#far{i}-p"/></vertices><triangles count="2">'
+        f'<input semantic="VERTEX" source="#far{i}-v" offset="0"/><p>0 1 2 0 2 3</p></triangles></mesh></geometry>'
+        for i in range(count))
+    nodes = "".join(f'<node><translate>{i % 25} -400 {i // 25}</translate><instance_geometry url="#far{i}"/></node>'
                     for i in range(count))
-    return added("geometries", mesh, in_scene(nodes))
+    return added("geometries", meshes, in_scene(nodes))
 
 
 def static_nodes(count):
@@ -152,7 +174,7 @@ class UnusedContent(ProgramTest):
         return [r for r in json.loads(out)[section] if r["modelled"]]
 
     def test_channels_that_nothing_shows(self):
-        text = unused_animations(500, 20)
+        text = unused_animations(10000, 2)
         self.expect_no_more(text)
         self.assertEqual(self.explained(text, "animation"), self.explained(WALKER, "animation"))
 
@@ -161,6 +183,7 @@ class UnusedContent(ProgramTest):
 
     def test_images_that_no_shader_names(self):
         text = unused_images(200)
+        write_pictures(self.folder, 200)
         self.expect_no_more(text)
         self.assertEqual(self.explained(text, "textures"), self.explained(WALKER, "textures"))
 
