@@ -383,7 +383,9 @@ TEST(Classes, MakeHolesUpToAThreshold) {
                 bool hole = opacity <= threshold;
                 EXPECT_FLOAT_EQ(got["Oi.r"][size_t(n)], hole ? 0 : colors ? opacity + 0.5f : opacity)
                     << n << " " << threshold;
-                if (colors) EXPECT_EQ(got["Ci.r"][size_t(n)], hole ? 0 : 3) << n;
+                if (colors) {
+                    EXPECT_EQ(got["Ci.r"][size_t(n)], hole ? 0 : 3) << n;
+                }
             }
         }
 }
