@@ -165,7 +165,7 @@ RAISED = """class raised(float gain = 0.5; string mode = "all";) {
     }
     public void surface(output color Ci, Oi) {
         Oi = 1;
-        Ci = color(height, before == 0 ? 0.5 : 0, abs(zcomp(ntransform("object", normalize(N)))));
+        Ci = color(height, abs(before) < 0.0001 ? 0.5 : 0, abs(zcomp(ntransform("object", normalize(N)))));
     }
 }
 """

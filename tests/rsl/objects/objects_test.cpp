@@ -35,6 +35,7 @@ std::vector<float> values_of(const std::string& source, const char* output = "Ci
         if (!run.ok()) return std::vector<float>(kObjectPoints, std::nanf(""));
         Columns columns = columns_of_s();
         run.inputs = columns;
+        run.services[Service::query] = answer_zeros<Service::query>;  // a ray of the camera
         std::vector<float> got = run.run(kObjectPoints)[output];
         if (got.empty()) return std::vector<float>(kObjectPoints, std::nanf(""));
         if (first.empty()) first = got;
