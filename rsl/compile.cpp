@@ -130,9 +130,11 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
         return shaders;
     Diagnostics unheard;  // all has been said
     unheard.files = diagnostics.files;
-    for (auto& displacement : compile_as(ClassForm::OnlyDisplacement, source, options, unheard))
-        for (auto& shader : shaders)
-            if (shader->name == displacement->name && shader->definition->displaces)
+    auto displacements = compile_as(ClassForm::OnlyDisplacement, source, options, unheard);
+    for (auto& shader : shaders)
+        for (auto& displacement : displacements)
+            if (displacement && shader->definition->displaces &&
+                shader->name == displacement->name)
                 shader->displacement = std::move(displacement);
     return shaders;
 }

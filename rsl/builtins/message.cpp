@@ -166,7 +166,7 @@ void displaced(LowerCall& c) {
     const Shader* own = c.context.layer->shader->displacement.get();
     bool done = std::any_of(c.context.layers.begin(), c.context.layers.end(),
                             [&](const Layer& layer) { return layer.done && layer.shader == own; });
-    c.set(c.f(done ? 1.0f : c.context.options.moves_points ? 2.0f : 0.0f));
+    c.set(c.b.f(done ? 1.0f : c.context.options.moves_points ? 2.0f : 0.0f));
 }
 void seenopacity(LowerCall& c) {
     auto& b = c.b;

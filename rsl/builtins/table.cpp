@@ -116,7 +116,7 @@ struct ForeignRow {
 constexpr ForeignRow kForeign[] = {
     {" urandom checkers clearlighting colormap ", "Pixie"},
     {" fulltrace rayserver ", "BMRT"},
-    {" wnoise hash randomgrid subtexture rayhittest irradiance ", "other renderers"},
+    {" hash randomgrid subtexture rayhittest irradiance ", "other renderers"},
     {" getvar getshader getshaders getlights hasmethod "
      "evaluateSamples generateSamples ",
      "RSL 2.0"},

@@ -77,25 +77,28 @@ void Statements::run_statements(std::span<Stmt* const> body) {
 void Statements::branch(const IfStmt& stmt) {
     // Behind opacity, where opacity alone is wanted: what is under the threshold is a hole there too.
     bool skips = stmt.behind_opacity && !context_.options.want_Ci;
-    if (skips && (!stmt.no || context_.options.opacity_threshold <= 0)) return;
+    // Without a threshold Oi is 0 there already.
+    const Stmt* otherwise = stmt.no;
+    if (stmt.behind_opacity && context_.options.opacity_threshold <= 0) otherwise = nullptr;
+    if (skips && !otherwise) return;
     Value condition = tree_.value(*stmt.condition);
     bool known;
     if (b_.constant_m(condition, &known)) {
         if (known && !skips)
             statement(*stmt.yes);
-        else if (!known && stmt.no)
-            statement(*stmt.no);
+        else if (!known && otherwise)
+            statement(*otherwise);
         return;
     }
     Value before = e_.running;
     Value yes = b_.logical_and(before, condition);
     Value no = b_.and_not(before, condition);
     if (!skips) regions_.guarded(yes, [&] { statement(*stmt.yes); });
-    if (!stmt.no) return;
+    if (!otherwise) return;
     // What is left of the first side and what the second one leaves, together.
     Value after_yes = e_.running;
     e_.running = before;
-    regions_.guarded(no, [&] { statement(*stmt.no); });
+    regions_.guarded(no, [&] { statement(*otherwise); });
     if (after_yes != before)
         e_.running = e_.running == before ? after_yes : b_.logical_and(e_.running, after_yes);
 }

@@ -41,8 +41,8 @@ void ObjectExpander::expr(Expr*& slot) {
                 return;
             }
             if (inner_length(e) > 0)
-                return void(report(Code::RSL_STRUCT_ARRAYS, e.span,
-                                   last_path(as<VariableExpr>(*e.array).name)));
+                return void(report(Code::RSL_STRUCT_ELEMENT, e.span,
+                                   fmt::format("'{}'", as<VariableExpr>(*e.array).name)));
             expr(e.array);
             return expr(e.index);
         }
@@ -140,7 +140,9 @@ bool ObjectExpander::object_call(CallExpr& e, std::vector<Expr*>& args) {
     std::vector<std::string_view> names;
     for (const Function* method : value.structure->methods) names.push_back(method->name);
     if (value.index && has_arrays(*value.structure))
-        return report(Code::RSL_STRUCT_ARRAYS, object->span, value.structure->name), false;
+        return report(Code::RSL_STRUCT_ELEMENT, object->span,
+                      fmt::format("struct '{}'", value.structure->name)),
+               false;
     for (const Candidate& candidate : candidates_)
         if (candidate.owner == value.structure && candidate.name == e.name) {
             args = parts(value, object->span);
@@ -204,7 +206,8 @@ void ObjectExpander::call(CallExpr& e, std::vector<Expr*> results) {
             continue;
         }
         if (value.index && has_arrays(*value.structure))
-            report(Code::RSL_STRUCT_ARRAYS, argument->span, value.structure->name);
+            report(Code::RSL_STRUCT_ELEMENT, argument->span,
+                   fmt::format("struct '{}'", value.structure->name));
         mangled += " " + std::string(value.structure->name);
         args.insert(args.end(), members.begin(), members.end());
     }

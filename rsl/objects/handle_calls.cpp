@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "rsl/model/globals.h"
 #include "rsl/objects/expand.h"
@@ -192,13 +193,22 @@ void HandleCalls::read_member(Expr*& slot, VariableExpr& member, Expr* index) {
     std::string_view object = object_of(member.name);
     std::string_view path = member.name.substr(object.size() + kArrow.size());
     Expr* handle = make.variable(object);
+    if (const Symbol* list = symbol_at(object); index && list && list->type.is_array()) {
+        size_t nodes = 0;  // all[i]->member
+        expander_.expr(index);
+        handle = make.element(object, *std::exchange(index, nullptr), &nodes);
+    }
     HandleSet set = sets_.of(expander_.unit_, *handle);
     std::vector<Member> found = members(set, path);
     if (index) expander_.expr(index);
     if (set & kLightHandles) {
-        expander_.report(Code::RSL_LIGHT_MEMBER, member.span, path);
-        slot = make.number(0);
-        return;
+        if (index || (set & ~(kNullHandle | kLightHandles))) {
+            expander_.report(Code::RSL_LIGHT_MEMBER, member.span, path);
+            slot = make.number(0);
+            return;
+        }
+        slot = make.call("light_member", {handle, make.text(path)});
+        return expander_.call(as<CallExpr>(*slot));
     }
     if (found.empty()) {
         if (set & ~kNullHandle) expander_.report(Code::RSL_CO_SHADER_MEMBER, member.span, path);

@@ -113,19 +113,23 @@ class ClassIntegrators {
         });
     }
 
-    // Whether the expression is of type shader, or an array of them.
+    // Whether the expression is of type shader.
     bool is_handle(const Expr& e) const {
-        const Expr* named = &e;
-        if (const auto* element = as_if<IndexExpr>(named)) named = element->array;
-        if (const auto* call = as_if<CallExpr>(named)) return call->name == "getshader";
-        const auto* variable = as_if<VariableExpr>(named);
+        if (const auto* element = as_if<IndexExpr>(&e)) return is_list(*element->array);
+        if (const auto* call = as_if<CallExpr>(&e)) return call->name == "getshader";
+        const auto* variable = as_if<VariableExpr>(&e);
         return variable && handles_.contains(variable->name);
+    }
+    bool is_list(const Expr& e) const {
+        if (const auto* call = as_if<CallExpr>(&e)) return call->name == "getshaders";
+        const auto* variable = as_if<VariableExpr>(&e);
+        return variable && lists_.contains(variable->name);
     }
 
     // Names of variables of type shader, wherever they are declared.
     void list_handles() {
         auto add = [&](const Symbol* symbol) {
-            if (symbol->handle) handles_.insert(symbol->name);
+            if (symbol->handle) (symbol->type.is_array() ? lists_ : handles_).insert(symbol->name);
         };
         auto look = [&](Stmt* stmt, auto& self) -> void {
             if (auto* declared = as_if<DeclareStmt>(stmt))
@@ -143,11 +147,13 @@ class ClassIntegrators {
 
     // False after a finding.
     bool bind(const Integrator& row, CallExpr& call, std::string_view method) {
-        bool own = call.args.size() >= row.pairs && is_named(*call.args[0], "this");
-        if (call.args.size() < row.pairs || !(own || is_handle(*call.args[0])))
-            return report(Code::RSL_2, call.span,
-                          fmt::format("'{}()' of another shader than 'this'", row.name)),
-                   false;
+        if (call.args.size() < row.pairs) {
+            report(Code::RSL_ARGUMENT_COUNT, call.span, row.name, row.pairs, call.args.size());
+            return false;
+        }
+        bool own = is_named(*call.args[0], "this");
+        if (!own && !is_handle(*call.args[0]))
+            return report(Code::RSL_HANDLE_WANTED, call.args[0]->span), false;
         if (own && !has(row.method)) {
             report(Code::RSL_NO_SAMPLE_METHOD, call.span, row.name, shader_.name, row.method);
             return false;
@@ -161,9 +167,9 @@ class ClassIntegrators {
         bool direct = row.pairs == 2;
         if (direct) {
             Expr* category = category_of(*call.args[1]);
-            if (!category && !is_handle(*call.args[1]))
-                return report(Code::RSL_2, call.args[1]->span,
-                              "directlighting() of lights other than getlights()'s"),
+            if (!category && !is_list(*call.args[1]))
+                return report(Code::RSL_HANDLE_WANTED, call.args[1]->span).help =
+                           "the lights are a list: shader lights[] = getlights();",
                        false;
             if (!category) args.push_back(call.args[1]), function += "_among";
             args.push_back(make.call(row.name, given.hints));
@@ -292,7 +298,7 @@ class ClassIntegrators {
     std::span<Function* const> functions_;  // of its source
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
     std::set<std::string_view> said_;
-    std::set<std::string_view> handles_;
+    std::set<std::string_view> handles_, lists_;  // variables of type shader, and shader[]
 };
 
 }  // namespace

@@ -30,6 +30,7 @@ constexpr std::pair<std::string_view, std::string_view> kHeadersByCall[] = {
     {"erfc", "prman.h"},
     {"gridnever", "prman.h"},
     {"randomstrat", "prman.h"},
+    {"wnoise", "prman.h"},
     {"generateSamplesAS", "prman_samples.h"},
     {"evaluateSamplesAS", "prman_samples.h"},
     {"generateSamplesEnv", "prman_samples.h"},

@@ -154,6 +154,95 @@ class Shadows(SceneTest):
         self.assertLess(int(found[1]), int(found[2]) / 2)
 
 
+# A square that rises along s, and shows how high.
+RAISED = """class raised(float gain = 0.5; string mode = "all";) {
+    varying float height = 0; varying float before = 0;
+    public void begin() { before = zcomp(transform("object", P)); }
+    public void displacement(output point P; output normal N) {
+        height = gain * s;
+        P += height * normalize(N);
+        N = calculatenormal(P);
+    }
+    public void surface(output color Ci, Oi) {
+        Oi = 1;
+        Ci = color(height, abs(before) < 0.0001 ? 0.5 : 0, abs(zcomp(ntransform("object", normalize(N)))));
+    }
+}
+"""
+APART = """displacement lift(float gain = 0.5; output varying float height = 0;) {
+    height = gain * s;
+    P += height * normalize(N);
+    N = calculatenormal(P);
+}
+surface seen() {
+    float height = 0;
+    displacement("height", height);
+    Oi = 1;
+    Ci = color(height, 0.5, abs(zcomp(ntransform("object", normalize(N)))));
+}
+"""
+NONE_MOVES = "displacement none(float gain = 9;) { P += vector(0, 0, gain); }\n"
+
+
+class Displaced(SceneTest):
+    """The square is seen by a slanted camera, so that its height shows."""
+
+    def seen(self, code, passes, out, *words):
+        text = document(effect(code, passes)).replace("<translate>0 0 10</translate>",
+                                                      "<rotate>0 1 0 50</rotate><translate>0 0 10</translate>", 1)
+        self.render(text, "--dice", "8", *words, out=out, name=out + ".dae")
+        return self.bytes_of(out)
+
+    def test_a_class_moves_its_vertices_as_a_displacement_does(self):
+        apart = '<shader stage="DISPLACEMENT"/><shader stage="SURFACE"/>'
+        for words in ((), ("--displacement", "bump")):
+            one = self.seen(RAISED, '<shader stage="SURFACE"/>', "one.png", *words)
+            two = self.seen(APART, apart, "two.png", *words)
+            self.assertEqual(one, two, words)
+        self.seen(RAISED.replace("P += height", "point q = P + height"), '<shader stage="SURFACE"/>', "flat.png")
+        self.seen(RAISED, '<shader stage="SURFACE"/>', "one.png")
+        self.assertNotEqual(self.box("one.png"), self.box("flat.png"))
+
+    def test_its_own_goes_before_another_displacement(self):
+        both = '<shader stage="DISPLACEMENT"><name>none</name></shader><shader stage="SURFACE"/>'
+        self.assertEqual(self.seen(RAISED + NONE_MOVES, both, "both.png"),
+                         self.seen(RAISED, '<shader stage="SURFACE"/>', "one.png"))
+
+    def test_a_class_bound_as_a_displacement_only_displaces(self):
+        plain = "surface plain() { Ci = color(0.25, s, t); Oi = 1; }\n"
+        stages = '<shader stage="DISPLACEMENT"><name>{}</name></shader><shader stage="SURFACE"><name>plain</name></shader>'
+        self.assertEqual(self.seen(RAISED + plain, stages.format("raised"), "class.png"),
+                         self.seen(APART + plain, stages.format("lift"), "apart.png"))
+
+
+class OpenArrays(SceneTest):
+    """A parameter "T a[]" is as long as what the effect binds."""
+    CODE = """class list(float a[] = {9}; string words[] = {}; color tints[] = 0;) {
+        public void surface(output color Ci, Oi) {
+            float i, sum = 0;
+            for (i = 0; i < arraylength(a); i += 1) sum += a[i];
+            Ci = color(sum, arraylength(words) / 4, arraylength(tints) / 4); Oi = 1;
+            if (arraylength(words) > 1 && words[1] == "two") Ci += color(0, 0.25, 0);
+        }
+    }"""
+    BINDS = """<shader stage="SURFACE"><bind symbol="a"><array length="3"><float>0.125</float><float>0.25</float>
+<float>0.125</float></array></bind><bind symbol="words"><array length="2"><string>one</string><string>two</string></array></bind>
+<bind symbol="tints"><array length="1"><color>1 0 0</color></array></bind></shader>"""
+
+    def test_bound_lengths(self):
+        for passes, hand in ((self.BINDS, "color(0.5, 0.75, 0.25)"), ('<shader stage="SURFACE"/>', "color(9, 0, 0)")):
+            text = document(effect(self.CODE, passes))
+            self.render(text, out="a.png", name="a.dae")
+            self.render(document(effect("surface x() { Ci = %s; Oi = 1; }" % hand, '<shader stage="SURFACE"/>')),
+                        out="b.png", name="b.dae")
+            self.assertEqual(self.bytes_of("a.png"), self.bytes_of("b.png"))
+            for to in ("a.glb", "again.dae"):
+                self.expect(run("kinora-convert", self.folder / "a.dae", self.folder / to), 0)
+                self.expect(run("kinora-render", self.folder / to, "-o", self.folder / "c.png", "--size", "32x32",
+                                "--spp", "4", "--filter", "box", "--color", "legacy", "--progress", "none"), 0)
+                self.assertEqual(self.bytes_of("c.png"), self.bytes_of("a.png"), to)
+
+
 class CoShaders(SceneTest):
     def same_picture(self, text, other, words=(), other_words=()):
         self.render(text, *words, out="a.png", name="a.dae")

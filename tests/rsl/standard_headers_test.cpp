@@ -136,6 +136,13 @@ const HeaderRow kHeaders[] = {
      "stdrsl_SpecularDBRDF d; d->init(c, \"beckmann\", Cs, 0.2, 1, 4); __radiancesample a[];"
      "d->genSpecularSamps(c, f, \"specular\", a); resize(a, 1); a[0]->direction = c->m_Vn;"
      "d->evalSpecularSamps(c, f, a); Ci = a[0]->materialResponse + a[0]->materialPdf;"},
+    {"stdrsl/bsdfcomponent.h", "",
+     "struct Lobe : stdrsl_BSDFComponent { void evalSpecularSamps(stdrsl_ShadingContext c;"
+     " stdrsl_Fresnel f; output __radiancesample a[]) { a[0]->setMaterialResponse(Cs, 1); } }"
+     "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5); Lobe d;"
+     "__radiancesample a[]; resize(a, 1); d->genSpecularSamps(c, f, \"specular\", a);"
+     "d->genDiffuseSamps(c, f, a); d->evalDiffuseSamps(c, f, a); d->evalSpecularSamps(c, f, a);"
+     "Ci = a[0]->materialResponse + d->m_sampleCount;"},
     {"stdrsl/isotropicvolume.h", "",
      "stdrsl_ShadingContext c; c->init(); stdrsl_Fresnel f; f->init(c, 1, 1.5);"
      "stdrsl_IsotropicVolume d; d->init(Cs); __radiancesample a[]; resize(a, 1);"
@@ -157,11 +164,14 @@ const HeaderRow kHeaders[] = {
      "Ci += color environment(map, r) + float environment(map, r); __radiancesample a[];"
      "resize(a, 1); areashadow(map, r, a, \"bias\", 0.1); Ci += a[0]->radiance;"},
     {"prman.h", "",
-     "vector a[4]; randomstrat(0, 4, a); Ci = erf(s) + erfc(t) + gridnever(s) + color(a[2]);"},
+     "vector a[4]; randomstrat(0, 4, a); Ci = erf(s) + erfc(t) + gridnever(s) + color(a[2]);"
+     "vector v = wnoise(P, 1); point p = wnoise(P, 1); color c = wnoise(P, 1), d = wnoise(s, 1);"
+     "float x = wnoise(P), y = wnoise(s, 1); Ci += c + d + color v + color p + x + y;"},
     {"prman_samples.h", "string map = \"\";",
      "__radiancesample a[]; generateSamplesAS(Cs, 2, 10, 20, N, dPdu, -I, a);"
      "evaluateSamplesAS(Cs, 10, 20, N, dPdu, -I, a); generateSamplesEnv(map, P, N, 2, a);"
-     "evaluateSamplesEnv(map, P, N, a); Ci = a[0]->radiance + a[0]->lightPdf;"},
+     "evaluateSamplesEnv(map, P, N, a); Ci = a[0]->radiance + a[0]->lightPdf;"
+     "generateSamplesEnv(map, P, N, 2, a, \"environmentspace\", \"object\", \"scale\", Cs);"},
     {"stdrsl/sphericalharmonics.h", "",
      "stdrsl_SphericalHarmonic a, b; color k[9]; float f[4]; a->createFromArray(k);"
      "b->createFromArray(f); a->rotate(\"world\"); Ci = a->convolve(b, 0) + a->evaluate(vector "

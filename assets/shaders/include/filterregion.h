@@ -38,11 +38,21 @@ struct filterregion {
         along *= factor;
         radius *= factor;
     }
+    void scale(float by_s; float by_t) {
+        across = vector "current" (across[0] * by_s, across[1] * by_t, 0);
+        along = vector "current" (along[0] * by_s, along[1] * by_t, 0);
+        radius *= max(by_s, by_t);
+    }
     // By a part of the whole map, in both directions.
     void blur(float amount) {
         across += vector "current" (amount, 0, 0);
         along += vector "current" (0, amount, 0);
         radius += 0.5 * amount;
+    }
+    void blur(float by_s; float by_t) {
+        across += vector "current" (by_s, 0, 0);
+        along += vector "current" (0, by_t, 0);
+        radius += 0.5 * max(by_s, by_t);
     }
 };
 

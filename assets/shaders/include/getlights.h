@@ -40,4 +40,28 @@ KINORA_LIGHT_VALUE(matrix)
 KINORA_LIGHT_VALUE(string)
 #undef KINORA_LIGHT_VALUE
 
+// which->name: the parameter as a value of the wanted type. A number spreads over a triple.
+#define KINORA_LIGHT_MEMBER(TYPE, OTHERWISE)                                      \
+    TYPE light_member(shader which; string name;) {                               \
+        TYPE value = 0;                                                           \
+        float number = 0;                                                         \
+        if (light_value(which, name, value) == 0) {                               \
+            if (light_value(which, name, number) == 0)                            \
+                nullcall(name);                                                   \
+            OTHERWISE                                                             \
+        }                                                                         \
+        return value;                                                             \
+    }
+KINORA_LIGHT_MEMBER(float, )
+KINORA_LIGHT_MEMBER(color, value = number;)
+KINORA_LIGHT_MEMBER(point, value = number;)
+KINORA_LIGHT_MEMBER(vector, value = number;)
+KINORA_LIGHT_MEMBER(normal, value = number;)
+#undef KINORA_LIGHT_MEMBER
+string light_member(shader which; string name;) {
+    string value = "";
+    if (light_value(which, name, value) == 0) nullcall(name);
+    return value;
+}
+
 #endif

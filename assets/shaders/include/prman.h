@@ -23,4 +23,18 @@ void randomstrat(float first; float last; output vector samples[]) {
         samples[i] = vector "current" ((i - first + random()) / count, random(), 0);
 }
 
+// Noise of a band: where a cell of the lattice is smaller than the filter, noise() fades to its mean.
+// PRMan's is made of wavelets (Cook and DeRose 2005), whose values differ.
+#define KINORA_WNOISE(TYPE, FORMAL, NAME, MEAN)                                      \
+    TYPE wnoise(FORMAL NAME; float width = 0;) {                                     \
+        return mix(TYPE noise(NAME), TYPE MEAN, smoothstep(0.5, 1, width));          \
+    }
+KINORA_WNOISE(float, float, x, 0.5)
+KINORA_WNOISE(color, float, x, 0.5)
+KINORA_WNOISE(float, point, q, 0.5)
+KINORA_WNOISE(color, point, q, 0.5)
+KINORA_WNOISE(point, point, q, 0.5)
+KINORA_WNOISE(vector, point, q, 0.5)
+#undef KINORA_WNOISE
+
 #endif

@@ -309,6 +309,9 @@ void RslExtras::set_param(ShaderUse& use, const std::string& name, const tinyglt
     if (parameter.type.base == rsl::BaseType::String) {
         if (!read_strings(value, pointer, source))
             return refuse("what is no string and no texture");
+        if (size_t needed = size_t(std::max(parameter.type.array_length, 1));
+            source.strings.size() != needed)
+            return refuse(fmt::format("{} strings", source.strings.size()));
     } else {
         std::vector<double> numbers;
         if (!append_numbers(value, numbers) || numbers.empty()) return refuse("what is no number");
@@ -322,9 +325,17 @@ void RslExtras::set_param(ShaderUse& use, const std::string& name, const tinyglt
     use.params.push_back(std::move(source));
 }
 
-// A string, the path of a file that may be read, or a texture; false for other values.
+// Strings, paths of files that may be read, textures, or a list of these; false for other values.
 bool RslExtras::read_strings(const tinygltf::Value& value, const std::string& pointer,
                              ParamSource& source) {
+    if (value.IsArray()) {
+        for (size_t k = 0; k < value.ArrayLen(); ++k) {
+            const tinygltf::Value& item = value.Get(int(k));
+            if (item.IsArray() || !read_strings(item, fmt::format("{}/{}", pointer, k), source))
+                return false;
+        }
+        return value.ArrayLen() > 0;
+    }
     if (value.IsString()) {
         std::string text = value.Get<std::string>();
         std::string path = gltf_path(file_, text);
@@ -332,12 +343,12 @@ bool RslExtras::read_strings(const tinygltf::Value& value, const std::string& po
         bool is_file = is_regular_file(path);
         if (is_file && !allowed)
             report_.add(Code::GLTF_FILE, pointer, path, "it lies outside the scene's folder");
-        source.strings = {is_file && allowed ? out_.pictures.name_of(path) : text};
+        source.strings.push_back(is_file && allowed ? out_.pictures.name_of(path) : text);
         return true;
     }
     const tinygltf::Value* texture = member(value, "texture");
     if (!texture || !texture->IsNumber()) return false;
-    source.strings = {texture_of(value, texture->GetNumberAsInt(), pointer)};
+    source.strings.push_back(texture_of(value, texture->GetNumberAsInt(), pointer));
     return true;
 }
 

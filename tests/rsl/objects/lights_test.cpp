@@ -105,7 +105,7 @@ TEST(Getlights, SaysWhatCannotBeDone) {
     } rows[] = {
         {all + "all[0]->generateSamples(\"sphere\", c);", "RSL_LIGHT_METHOD"},
         {all + "all[0]->light(L);", "RSL_LIGHT_METHOD"},
-        {all + "Ci = all[0]->intensity;", "RSL_LIGHT_MEMBER"},
+        {all + "if (s > 0) all[0] = getshader(\"a\"); all[0]->intensity = 1;", "RSL_CO_SHADER_WRITE"},
         {"shader all[] = getlights(\"group\", \"a\"); Ci = arraylength(all);", "RSL_LIGHT_QUERY"},
         {"shader all = getlights();", "RSL_ARRAY_AS_VALUE"}};
     for (auto& row : rows)

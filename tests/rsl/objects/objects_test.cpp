@@ -35,6 +35,7 @@ std::vector<float> values_of(const std::string& source, const char* output = "Ci
         if (!run.ok()) return std::vector<float>(kObjectPoints, std::nanf(""));
         Columns columns = columns_of_s();
         run.inputs = columns;
+        run.services[Service::query] = answer_zeros<Service::query>;  // a ray of the camera
         std::vector<float> got = run.run(kObjectPoints)[output];
         if (got.empty()) return std::vector<float>(kObjectPoints, std::nanf(""));
         if (first.empty()) first = got;
@@ -181,6 +182,27 @@ TEST(Structs, StandInArrays) {
         "surface t() { Ci = (3 + 2 * s) + s + 2 + 3; }");
 }
 
+// Where the array of all elements of all lists is: a[i]->k[j] is element 3 i + j.
+TEST(Structs, HoldArraysInArrays) {
+    expect_same(
+        "struct E { float k[3] = {1, 2, 3}; float w = 7; color c[2]; }"
+        "surface t() { E a[2], list[]; float i, sum = 0; a[1]->k[2] = s; a[0] = a[1];"
+        "a[0]->k[0] += 10; a[0]->c[1] = color(t, 2, 3); push(list, a[1]); push(list, a[0]);"
+        "for (i = 0; i < 3; i += 1) sum += a[0]->k[i] * pow(10, i);"
+        "E one = list[1]; resize(list, 1);"
+        "Ci = sum + 1000 * (list[0]->k[2] + one->c[1][0] + one->k[0]) + arraylength(list); }",
+        "surface t() { Ci = 11 + 20 + 100 * s + 1000 * (s + t + 11) + 1; }");
+}
+
+TEST(Structs, ReportListsBeyondTheirLengths) {
+    bool faults = false;
+    values_of(
+        "struct E { float k[2]; } surface t() { E a[2]; a[0]->k[1] = 5; a[1]->k[0] = 9;"
+        "Ci = a[0]->k[mod(s, 3)]; }",
+        "Ci.r", &faults);
+    EXPECT_TRUE(faults);
+}
+
 TEST(Structs, LeaveNothingBehindInTheCode) {
     RunShader with(
         "struct V { float a = 1; float b = 2; float sum() { return a + b; } }"
@@ -244,7 +266,8 @@ TEST(Classes, RunTheirMethodsInOrder) {
     // lighting() goes before the pair, and that before surface().
     for (float value : values_of(digits({"lighting", "diffuselighting", "surface"})))
         EXPECT_EQ(value, 1);
-    for (float value : values_of(digits({"diffuselighting", "surface"}))) EXPECT_EQ(value, 1);
+    // A surface() is whole, half of the pair is not.
+    for (float value : values_of(digits({"diffuselighting", "surface"}))) EXPECT_EQ(value, 2);
 }
 
 TEST(Classes, WithoutOneOfTheirMethodsGiveAnotherPicture) {
@@ -305,6 +328,69 @@ TEST(Classes, MayPromiseThatShadowsSeeOs) {
     EXPECT_EQ(run.value("Oi.r"), 1);
 }
 
+// What sees the point decides what lights it: docs/language.md#rsl-20.
+TEST(Classes, AreLitByWhatARayNeeds) {
+    constexpr struct {
+        const char* methods;  // d, g, l, s: diffuselighting, specularlighting, lighting, surface
+        float camera, specular, diffuse;
+    } kRows[] = {{"dg", 12, 12, 1},   {"l", 3, 3, 3},     {"s", 4, 4, 4},
+                 {"dgl", 3, 12, 1},   {"dls", 3, 3, 1},   {"dgs", 12, 12, 1},
+                 {"ls", 3, 3, 3},     {"dgls", 3, 12, 1}, {"ds", 4, 4, 1}};
+    for (const auto& row : kRows) {
+        std::string source = "class t() { float n = 0; float add(float k) { n = n * 10 + k; return n; }";
+        for (char c : std::string(row.methods)) {
+            std::string name = c == 'd'   ? "diffuselighting"
+                               : c == 'g' ? "specularlighting"
+                               : c == 'l' ? "lighting"
+                                          : "surface";
+            source += "public void " + name + "(output color Ci, Oi) { Ci = add(" +
+                      std::to_string(std::string("dgls").find(c) + 1) + "); }";
+        }
+        source += " public void postlighting(output color Ci, Oi) { Ci += 0.5; } }";
+        for (const char* type : {"camera", "specular", "diffuse", "transmission"}) {
+            static int32_t seen_by;
+            seen_by = intern(type);
+            RunShader run(source);
+            ASSERT_TRUE(run.ok()) << run.findings() << source;
+            run.services[Service::query] = [](const jit::ServiceCall& call) {
+                std::fill_n(call.results, jit::kMaxLanes, std::bit_cast<float>(int32_t(1)));
+                std::fill_n(call.results + jit::kMaxLanes, jit::kMaxLanes,
+                            std::bit_cast<float>(seen_by));
+            };
+            float expected = std::string(type) == "diffuse"    ? row.diffuse
+                             : std::string(type) == "specular" ? row.specular
+                                                               : row.camera;
+            EXPECT_EQ(run.value("Ci.r"), expected + 0.5f) << row.methods << " by " << type;
+        }
+    }
+}
+
+// opacity() leaves s / 20: up to the threshold there is a hole, for shadow rays too.
+TEST(Classes, MakeHolesUpToAThreshold) {
+    const char* source =
+        "class t() { public void opacity(output color Oi) { Oi = color(s / 20, s / 40, 0); }"
+        " public void surface(output color Ci, Oi) { Ci = 3; Oi += 0.5; } }";
+    for (float threshold : {0.0f, 0.25f})
+        for (bool colors : {true, false}) {
+            LowerOptions options;
+            options.opacity_threshold = threshold;
+            options.want_Ci = colors;
+            RunShader run(source, options);
+            ASSERT_TRUE(run.ok()) << run.findings();
+            run.inputs = columns_of_s();
+            auto got = run.run(kObjectPoints);
+            for (int n = 0; n < kObjectPoints; ++n) {
+                float opacity = float(n) / 20;
+                bool hole = opacity <= threshold;
+                EXPECT_FLOAT_EQ(got["Oi.r"][size_t(n)], hole ? 0 : colors ? opacity + 0.5f : opacity)
+                    << n << " " << threshold;
+                if (colors) {
+                    EXPECT_EQ(got["Ci.r"][size_t(n)], hole ? 0 : 3) << n;
+                }
+            }
+        }
+}
+
 TEST(Classes, SeeTheGlobalsUnderTheNamesOfTheirMethods) {
     auto got = values_of(
         "class t() { void brighter() { extern color Ci; Ci *= 2; }"
@@ -325,6 +411,27 @@ TEST(Classes, BendNormalsAndLeaveThePoints) {
         EXPECT_EQ(bent[size_t(n)], float(n));
         EXPECT_EQ(point[size_t(n)], 0);
     }
+}
+
+// Points of no mesh, as kinora-shade's: nothing has moved them before, so P is where it is put.
+TEST(Classes, MovePointsOfNoMesh) {
+    std::string source =
+        "class t() { float lifted = 0;"
+        "  public void displacement(output point P; output normal N) { lifted = s;"
+        "    P += vector(0, 0, 2 * s); N = normal(s, 0, 1); }"
+        "  public void surface(output color Ci, Oi) { Ci = lifted + 100 * zcomp(P); } }";
+    LowerOptions options;
+    options.want_P = options.want_N = options.moves_points = true;
+    RunShader run(source, options);
+    ASSERT_TRUE(run.ok()) << run.findings();
+    run.inputs = columns_of_s();
+    auto got = run.run(kObjectPoints);
+    for (int n = 0; n < kObjectPoints; ++n) {
+        EXPECT_EQ(got["Ci.r"][size_t(n)], float(n + 200 * n));
+        EXPECT_EQ(got["P.z"][size_t(n)], float(2 * n));
+        EXPECT_EQ(got["N.x"][size_t(n)], float(n));
+    }
+    EXPECT_TRUE(run.shaders[0]->displacement);
 }
 
 TEST(Classes, AreOfTheKindThatTheirMethodsName) {

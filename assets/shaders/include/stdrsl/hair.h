@@ -10,16 +10,16 @@ struct stdrsl_Hair {
     varying color m_rootColor = 0.5;
     varying color m_tipColor = 0.5;
     varying float m_gain = 1;
-    varying float m_reflect = 1;    // towards the side that the light is on
-    varying float m_transmit = 0.5; // to the other
+    varying color m_reflect = 1;    // towards the side that the light is on
+    varying color m_transmit = 0.5; // to the other
     varying float m_sampleCount = 1;
-    varying float m_specTransmit = 0;
-    varying float m_specReflect = 1;
+    varying color m_specTransmit = 0;
+    varying color m_specReflect = 1;
     varying float m_shift = 0;      // of the scales, in radians towards the root
     varying float m_width = 0.2;    // of the lobe along the hair, in radians
     varying float m_index = 1.55;
 
-    void initDiffuse(stdrsl_ShadingContext ctx; float gain; float reflectance; float transmittance;
+    void initDiffuse(stdrsl_ShadingContext ctx; float gain; color reflectance; color transmittance;
                      color root; color tip) {
         m_gain = gain;
         m_reflect = reflectance;
@@ -27,8 +27,8 @@ struct stdrsl_Hair {
         m_rootColor = root;
         m_tipColor = tip;
     }
-    void initSpecular(stdrsl_ShadingContext ctx; float count; float transmittance; float shift;
-                      float width; float reflectance; float index) {
+    void initSpecular(stdrsl_ShadingContext ctx; float count; color transmittance; float shift;
+                      float width; color reflectance; float index) {
         m_sampleCount = count;
         m_specTransmit = transmittance;
         m_specReflect = reflectance;
@@ -58,8 +58,8 @@ struct stdrsl_Hair {
         float r0 = pow((m_index - 1) / (m_index + 1), 2);
         float between = (theta_l - theta_v) / 2, kr = r0 + (1 - r0) * pow(1 - cos(between), 5);
         // The cross-section spreads light as the cosine of half the angle around the hair.
-        return color(lobe * kr * mix(m_specTransmit, m_specReflect, front) * sqrt(front) * 0.25 /
-                     max(0.01, cos(between)));
+        return lobe * kr * mix(m_specTransmit, m_specReflect, front) * sqrt(front) * 0.25 /
+               max(0.01, cos(between));
     }
     void evalDiffuseSamps(stdrsl_ShadingContext ctx; output __radiancesample samples[]) {
         float i;

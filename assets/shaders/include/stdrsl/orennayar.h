@@ -13,6 +13,13 @@ struct stdrsl_OrenNayar {
         m_diffColor = diffuseColor;
         m_roughness = roughness;
     }
+    void init(stdrsl_ShadingContext ctx; color diffuseColor; float roughness;) {
+        init(diffuseColor, roughness);
+    }
+    void init(stdrsl_ShadingContext ctx; color diffuseColor; float roughness;
+              uniform float minimum; uniform float maximum) {
+        init(diffuseColor, roughness);
+    }
     void evalDiffuseSamps(stdrsl_ShadingContext ctx; stdrsl_Fresnel fres;
                           output __radiancesample samples[]) {
         float square = m_roughness * m_roughness;

@@ -17,6 +17,10 @@ struct stdrsl_SpecularBlinn {
         ctx->m_SampleMgr->computeDepthBasedSampleReduction(ctx->m_RayDepth, maximum, minimum, 1,
                                                            m_sampleCount);
     }
+    void init(stdrsl_ShadingContext ctx; string distribution; color specColor; float roughness;
+              uniform float minimum; uniform float maximum) {
+        init(ctx, specColor, roughness, minimum, maximum);
+    }
     // Response (bsdf x cosine x color) and pdf of a direction by solid angle.
     void evaluate(stdrsl_ShadingContext ctx; vector towards; output color response;
                   output float pdf) {

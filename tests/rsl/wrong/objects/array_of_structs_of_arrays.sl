@@ -1,6 +1,6 @@
-struct A { float list[3]; }
+struct A { float list[]; }
 surface x() {
     A a[2];
     Ci = 1;
 }
-//! 3:7 error RSL_STRUCT_ARRAYS struct 'A' has an array among its members
+//! 3:7 error RSL_STRUCT_ARRAYS struct 'A' has an array of changing length among its members

@@ -4,4 +4,4 @@ class x() {
         Ci = directlighting(this, "all");
     }
 }
-//! 4:35 error RSL_2 directlighting() of lights other than getlights()'s belongs to the part of RSL 2.0 that is not supported yet
+//! 4:35 error RSL_HANDLE_WANTED this is no shader

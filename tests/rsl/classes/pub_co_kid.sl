@@ -1,0 +1,1 @@
+class kid(float gain = 5) { public float value(uniform float i) { return gain + i; } }
