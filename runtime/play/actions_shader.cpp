@@ -148,6 +148,7 @@ CommandResult action_edit(PlayerCore& core, const Arguments& a) {
         document.dirty = document.text != material->source->text;
         core.document = std::move(document);
     }
+    core.show_panel("editor");
     if (!a.has(0)) return {};
     std::ifstream in(a.text(0), std::ios::binary);
     std::string text((std::istreambuf_iterator<char>(in)), {});

@@ -58,8 +58,8 @@ void draw_findings(Context& context) {
         return;
     ImGui::TableSetupColumn("", 0, 14 * px);
     ImGui::TableSetupColumn("message", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("place", 0, 190 * px);
-    ImGui::TableSetupColumn("code", 0, 200 * px);
+    ImGui::TableSetupColumn("place");
+    ImGui::TableSetupColumn("code");
     for (size_t k = 0; k < findings.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
         row(context, findings[k], k + 1);

@@ -72,7 +72,7 @@ bool Letters::add(std::string_view text) {
         }
         unsigned letter = 0;
         at += std::max(1, ImTextCharFromUtf8(&letter, at, end));
-        if (letter < 0x80 || letter > IM_UNICODE_CODEPOINT_MAX || is_first(letter)) continue;
+        if (letter < 0x80 || letter >= IM_UNICODE_CODEPOINT_INVALID || is_first(letter)) continue;
         if (all_.size() < kMostLetters) some |= all_.insert(static_cast<ImWchar>(letter)).second;
     }
     return some;
