@@ -54,6 +54,7 @@ TEST(Closer, MeshesAreDicedAgainWhileTheCameraMoves) {
     EXPECT_GT(coarse, 1e-3);
 
     Player& player = moving.player;
+    ASSERT_TRUE(player.wait_picture(kLong));  // the camera is that of a picture
     EXPECT_EQ(moving.script("adapt; filter; refine; " + near), "");
     // A hundredth of a pixel there and back, until the pictures are those of finer meshes.
     double best = coarse;
