@@ -54,6 +54,23 @@ void bounds(const float* column, size_t count, float& low, float& high) {
     }
 }
 
+// Bits of the cell along one axis, two places apart.
+__attribute__((always_inline)) inline uint32_t cell_bits(float at) {
+    const float above = at > 0 ? at : 0.0f, within = above < 7 ? above : 7.0f;
+    const uint32_t x = uint32_t(int32_t(within));
+    return (x & 1) | (x & 2) << 2 | (x & 4) << 4;
+}
+
+void cells(const float* const P[3], const float low[3], const float scale[3], size_t count,
+           uint32_t* cell) {
+    const float *x = P[0], *y = P[1], *z = P[2];
+    const float x0 = low[0], y0 = low[1], z0 = low[2], sx = scale[0], sy = scale[1], sz = scale[2];
+#pragma GCC ivdep
+    for (size_t i = 0; i < count; ++i)
+        cell[i] = cell_bits((x[i] - x0) * sx) | cell_bits((y[i] - y0) * sy) << 1 |
+                  cell_bits((z[i] - z0) * sz) << 2;
+}
+
 // 1 where the sign of a product of two vectors is sure, 0 where rounding may decide.
 __attribute__((always_inline)) inline uint32_t is_sure(float product, float square_a,
                                                        float square_b) {
@@ -165,6 +182,7 @@ bool mark_weak(const float* const Cl[3], const float* limits, size_t count, uint
 }  // namespace
 
 extern const LightKernels KINORA_KERNEL_TABLE(Lights) = {
-    KINORA_INSTRUCTION_SET, bounds, turn_signs, darken_unseen, choose, add_strengths, mark_weak};
+    KINORA_INSTRUCTION_SET, bounds, cells,         turn_signs,
+    darken_unseen,          choose, add_strengths, mark_weak};
 
 }  // namespace kinora

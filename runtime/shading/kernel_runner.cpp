@@ -57,9 +57,9 @@ void KernelRunner::report_faults(Diagnostics& diagnostics) const {
 }
 
 bool shoots_rays(const ShaderInstance& look) {
-    static const jit::ServiceFn fns[] = {
-        find_service("trace"),           find_service("transmission"), find_service("occlusion"),
-        find_service("indirectdiffuse"), find_service("gather"),       find_service("raylimit")};
+    static const jit::ServiceFn fns[] = {find_service("trace"),     find_service("transmission"),
+                                         find_service("occlusion"), find_service("indirectdiffuse"),
+                                         find_service("gather"),    find_service("raylimit")};
     auto shoots = [](const BoundKernel& kernel) {
         return std::ranges::any_of(kernel.services, [](jit::ServiceFn fn) {
             return std::ranges::find(fns, fn) != std::end(fns);
@@ -149,25 +149,16 @@ void sort_by_counting(const uint32_t* look, size_t looks, std::span<uint32_t> or
 
 namespace {
 
-// Bits of a number below 8, two places apart.
-uint32_t spread(uint32_t x) {
-    return (x & 1) | (x & 2) << 2 | (x & 4) << 4;
-}
-
 // The cell of each hit among 8 x 8 x 8 of the hits' box, such that cells of near numbers are near.
 void find_cells(const raytrace::HitBatch& hits, std::span<uint32_t> cell) {
-    std::fill(cell.begin(), cell.end(), 0u);
+    float low[3], scale[3];
     for (int k = 0; k < 3; ++k) {
-        const float* P = hits.P[k];
-        float low, high;
-        light_kernels().bounds(P, hits.count, low, high);
-        const float scale = 7.99f / (high - low);
-        if (!(scale > 0 && scale < 1e30f)) continue;
-        for (size_t i = 0; i < hits.count; ++i) {
-            const float at = std::min(std::max(0.0f, (P[i] - low) * scale), 7.0f);
-            cell[i] |= spread(uint32_t(int32_t(at))) << k;
-        }
+        float high;
+        light_kernels().bounds(hits.P[k], hits.count, low[k], high);
+        scale[k] = 7.99f / (high - low[k]);
+        if (!(scale[k] > 0 && scale[k] < 1e30f)) low[k] = scale[k] = 0;
     }
+    light_kernels().cells(hits.P, low, scale, hits.count, cell.data());
 }
 
 // Hits of rays that scatter lie anywhere: in the order of place, those that are shaded together

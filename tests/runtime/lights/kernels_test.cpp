@@ -95,6 +95,28 @@ TEST_P(EachLightKernel, FindsBounds) {
     }
 }
 
+// By division into a table of bits, axis by axis.
+TEST_P(EachLightKernel, NumbersCells) {
+    constexpr uint32_t kBits[8] = {0, 1, 8, 9, 64, 65, 72, 73};
+    const float low[3] = {-2, 0.5f, 0}, scale[3] = {4, 0.25f, 0};
+    std::mt19937 random(7);
+    for (size_t count : kCounts) {
+        Columns P(count, random);
+        std::vector<uint32_t> cell(count, 99u);
+        kernels().cells(P.rows(), low, scale, count, cell.data());
+        for (size_t i = 0; i < count; ++i) {
+            uint32_t expected = 0;
+            for (size_t k = 0; k < 3; ++k) {
+                const float at = (P.at[k][i] - low[k]) * scale[k];
+                size_t index = 0;
+                while (index < 7 && at >= float(index + 1)) ++index;
+                expected |= kBits[index] << k;
+            }
+            EXPECT_EQ(cell[i], expected) << count << ' ' << i;
+        }
+    }
+}
+
 TEST_P(EachLightKernel, TellsWhereASideLooks) {
     std::mt19937 random(2);
     size_t compared = 0;
