@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::string_view kSamplesOption = "spp";
 constexpr double kFramesShare = 0.05;  // of the budget, to find the fastest frame
+constexpr int kCalibrationPart = 8;    // of a reference's samples
+constexpr double kMostCorrection = 8;  // more is the clock's fault
 constexpr double kSurveyShare = 0.1;   // likewise, to find settings that do nothing
 
 }  // namespace
@@ -76,7 +78,28 @@ bool Measurement::look_ahead() {
                                           .budget_ms = budget_ms});
     input_.costs.build = build_ms;
     survey();
+    calibrate();
     return !renders_.stopped();
+}
+
+// A longer render of the size to come tells better what a sample takes than the trial's few.
+void Measurement::calibrate() {
+    fill_plan_input();
+    const Plan plan = choose_plan(input_);
+    Quality quality = variants_[kReferenceRow].quality;
+    quality.samples_per_pixel = std::max(1, plan.reference_samples / kCalibrationPart);
+    renders_.set_size(plan.width, plan.height);
+    raytrace::Film scrap;
+    const double ms =
+        renders_.frame(*reference_scene_, quality, results_.frames[0], 1, scrap).wall_ms;
+    TrialCosts& costs = input_.costs;
+    const double estimated = costs.reference_sample * double(quality.samples_per_pixel) *
+                             double(plan.width) * double(plan.height);
+    if (!(estimated > 0) || !(ms > costs.frame)) return;
+    const double scale =
+        std::clamp((ms - costs.frame) / estimated, 1 / kMostCorrection, kMostCorrection);
+    costs.sample *= scale;
+    costs.reference_sample *= scale;
 }
 
 void Measurement::survey() {
@@ -106,7 +129,7 @@ void Measurement::survey() {
     }
 }
 
-bool Measurement::make_plan() {
+void Measurement::fill_plan_input() {
     input_.width = results_.asked_width;
     input_.height = results_.asked_height;
     input_.frames = results_.frames.size();
@@ -114,9 +137,14 @@ bool Measurement::make_plan() {
     input_.used_ms = watch_.ms();
     input_.reference_samples = qualities()[kReferenceRow].samples_per_pixel;
     input_.combinations = request_.combinations;
+    input_.sample_settings.clear();
     const Knob& spp = *find_knob(kSamplesOption);
     for (std::string_view setting : spp.settings)
         input_.sample_settings.push_back(int(*knob_value(spp, setting)));
+}
+
+bool Measurement::make_plan() {
+    fill_plan_input();
     const Plan& plan = results_.plan = choose_plan(input_);
     if (!plan.fits && input_.used_ms + plan.least_ms > input_.budget_ms) {
         std::fprintf(stderr,

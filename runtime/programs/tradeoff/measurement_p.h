@@ -50,6 +50,8 @@ class Measurement {
     bool build_bases();
     bool look_ahead();
     void survey();
+    void calibrate();
+    void fill_plan_input();
     bool make_plan();
     void make_rows();
     void lower(TradeBase& base, int samples);

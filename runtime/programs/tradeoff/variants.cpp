@@ -15,7 +15,7 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kMostRounds = 8;
+constexpr size_t kMostRounds = 16;
 constexpr size_t kMostVerticesCompared = 1 << 14;  // of a shape
 constexpr double kForReports = 0.02;               // of the budget
 constexpr std::string_view kUlp = "ULP";           // the error of knobs that change arithmetic
