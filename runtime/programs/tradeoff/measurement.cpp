@@ -30,8 +30,7 @@ double median_of(std::vector<double> values) {
 }
 
 void add_stage_shares(TradeWork& work, const TimedFrame& timed) {
-    for (size_t s = 0; s < kStageCount; ++s)
-        work.stage_shares[s] += timed.stages[s] / timed.cpu_ms;
+    for (size_t s = 0; s < kStageCount; ++s) work.stage_shares[s] += timed.stages[s] / timed.cpu_ms;
 }
 
 void Measurement::tell(const std::string& text) const {
@@ -65,8 +64,8 @@ bool Measurement::build_bases() {
 // The frames, what renders cost, and what the variants do.
 bool Measurement::look_ahead() {
     const double budget_ms = 1e3 * request_.budget_s;
-    ChosenFrames chosen = choose_trade_frames(request_.frames, renders_, *final_.scene,
-                                              kFramesShare * budget_ms);
+    ChosenFrames chosen =
+        choose_trade_frames(request_.frames, renders_, *final_.scene, kFramesShare * budget_ms);
     results_.frames = std::move(chosen.frames);
     results_.fastest_step = chosen.fastest_step;
     const double build_ms = input_.costs.build;
@@ -177,14 +176,12 @@ void Measurement::make_rows() {
     for (size_t v = 0; v < variants_.size(); ++v) {
         Variant& variant = variants_[v];
         if (v >= input_.variants.size())
-            input_.variants.push_back(
-                {.samples = variant.quality.samples_per_pixel,
-                 .base_samples = qualities()[variant.base].samples_per_pixel,
-                 .final_base = variant.base == kFinalRow});
+            input_.variants.push_back({.samples = variant.quality.samples_per_pixel,
+                                       .base_samples = qualities()[variant.base].samples_per_pixel,
+                                       .final_base = variant.base == kFinalRow});
         TradeRow row{.variant = std::move(variant)};
         row.as_base = v != kReferenceRow && input_.variants[v].same;
-        if (row.as_base)
-            row.not_measured = "the same bits and counts as its base in " + surveyed_;
+        if (row.as_base) row.not_measured = "the same bits and counts as its base in " + surveyed_;
         results_.rows.push_back(std::move(row));
     }
 }
@@ -266,9 +263,10 @@ bool Measurement::make_reference() {
     results_.floor = row.errors;
     row.picture_png = results_.reference_png;
     conclude(work);
-    tell(fmt::format("tradeoff: noise floor FLIP {:.4f}, RMSE {:.5f}; references {:.1f} s, all {:.1f} s",
-                     results_.floor.picture.flip, results_.floor.picture.rmse, results_.reference_s,
-                     1e-3 * watch_.ms()));
+    tell(fmt::format(
+        "tradeoff: noise floor FLIP {:.4f}, RMSE {:.5f}; references {:.1f} s, all {:.1f} s",
+        results_.floor.picture.flip, results_.floor.picture.rmse, results_.reference_s,
+        1e-3 * watch_.ms()));
     return true;
 }
 

@@ -1,5 +1,5 @@
-// runtime/programs/tradeoff/measurement_p.h: a trade-off under way. Renders the references, then each
-// variant between two renders of its base, so that what else the machine does changes both.
+// runtime/programs/tradeoff/measurement_p.h: a trade-off under way. Renders the references, then
+// each variant between two renders of its base, so that what else the machine does changes both.
 #pragma once
 
 #include "runtime/base/stats.h"
