@@ -32,7 +32,8 @@ Sampler sampled(const Sampler& sampler, double rate) {
     const std::vector<double> times = sample_times(sampler, rate);
     std::vector<double> values(times.size() * sampler.stride);
     for (size_t k = 0; k < times.size(); ++k)
-        evaluate(sampler, times[k], 0, std::span(values).subspan(k * sampler.stride, sampler.stride));
+        evaluate(sampler, times[k], 0,
+                 std::span(values).subspan(k * sampler.stride, sampler.stride));
     const bool rotates = sampler.kind == SampleKind::Quaternion;
     return make_sampler({.times = times,
                          .values = values,

@@ -218,6 +218,8 @@ std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
     return layers;
 }
 
+namespace {
+
 // Lowers the layers; inputs without partials have none to hand on.
 std::optional<rsl::LoweredShader> lower_layers(std::span<const rsl::Layer> layers,
                                                const rsl::LowerOptions& lower, bool derivatives,
@@ -227,6 +229,8 @@ std::optional<rsl::LoweredShader> lower_layers(std::span<const rsl::Layer> layer
         for (jit::InputInfo& input : lowered->module.inputs) input.du = input.dv = "";
     return lowered;
 }
+
+}  // namespace
 
 bool compile_instance(ShaderInstance& look, const SceneDescription& description,
                       const ShaderInstanceOptions& options, Diagnostics& diagnostics) {

@@ -125,7 +125,7 @@ struct ShaderInstanceOptions {
     std::vector<std::string> gathered;  // surfaces: outputs that some gather reads of what it hits
     const std::vector<std::string>* spaces = nullptr;
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
-    bool own_lines = false;  // jit::CompileOptions
+    bool own_lines = false;       // jit::CompileOptions
     float opacity_threshold = 0;  // rsl::LowerOptions
     bool derivatives = true;      // false: Du, Dv and the widths of filters are 0
 };

@@ -33,8 +33,8 @@ std::string knobs_text() {
 std::string knobs_json() {
     Json rows = Json::array();
     for (const Knob& knob : knobs()) {
-        Json row = {{"name", knob.option}, {"program", "kinora-render"}, {"stage", knob.stage},
-                    {"error", knob.error}, {"trades", knob.trades},      {"help", knob.help},
+        Json row = {{"name", knob.option},      {"program", "kinora-render"}, {"stage", knob.stage},
+                    {"error", knob.error},      {"trades", knob.trades},      {"help", knob.help},
                     {"settings", Json::array()}};
         for (std::string_view setting : knob.settings)
             row["settings"].push_back(json_of(knob, setting));

@@ -27,8 +27,8 @@ std::vector<Variant> trade_variants();
 // Combinations of settings: a Latin hypercube over the knobs.
 struct CombinationRequest {
     size_t count = 24;
-    int most_samples = 64;               // settings of --spp with more are left out
-    std::vector<const Knob*> fixed{};    // these stay as `final` has them
+    int most_samples = 64;             // settings of --spp with more are left out
+    std::vector<const Knob*> fixed{};  // these stay as `final` has them
 };
 // Adds them, without those that the list holds. The same ones for the same request.
 void add_combinations(std::vector<Variant>& list, const CombinationRequest& request);

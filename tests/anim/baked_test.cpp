@@ -25,7 +25,8 @@ Sampler turn(double degrees) {
     const Matrix16 a = turned(0), b = turned(degrees);
     Numbers times{0, 1}, values(a.begin(), a.end());
     values.insert(values.end(), b.begin(), b.end());
-    return make_sampler({.times = times, .values = values, .stride = 16, .kind = SampleKind::Matrix});
+    return make_sampler(
+        {.times = times, .values = values, .stride = 16, .kind = SampleKind::Matrix});
 }
 
 double degrees_at(const Sampler& sampler, double time) {
@@ -81,7 +82,8 @@ TEST(Baked, JumpsAndStraightLinesStay) {
 
 TEST(Baked, AYearOfSamplesIsNotMade) {
     Numbers times{0, 3e7}, values{0, 1}, flat{0, 0};
-    const Sampler slow = make_sampler({times, values, 1, Kinds{Interpolation::Hermite}, flat, flat});
+    const Sampler slow =
+        make_sampler({times, values, 1, Kinds{Interpolation::Hermite}, flat, flat});
     EXPECT_EQ(baked(slow, {.rate = 30}).times, times);
 }
 
@@ -94,7 +96,7 @@ TEST(Baked, NothingStandsForExactCurves) {
     std::vector<uint64_t> changed(1);
     evaluate(animation, 0.1, exact, changed);
     evaluate(animation, 0.1, rough, changed, samplers);
-    EXPECT_NEAR(exact[0], 0.028, 1e-12);                      // 3 s^2 - 2 s^3
+    EXPECT_NEAR(exact[0], 0.028, 1e-12);                        // 3 s^2 - 2 s^3
     EXPECT_NEAR(rough[0], 0.4 * (3 / 16.0 - 2 / 64.0), 1e-12);  // of the value at 1/4
     EXPECT_NE(exact[1], rough[1]);
 }

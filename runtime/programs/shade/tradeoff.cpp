@@ -30,7 +30,7 @@ struct Measured {
     ShadeStack stack;  // the kernel points into it
     std::vector<double> ms, ratios;
     std::map<std::string, FloatErrors> errors;  // by output
-    size_t points_changed = 0;  // with a value other than that of the first setting
+    size_t points_changed = 0;                  // with a value other than that of the first setting
 
     double mpoints(size_t points) const {
         return double(points) * 1e-3 / median_interval(ms).median;

@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::string_view kSamplesOption = "spp";
 constexpr double kFramesShare = 0.05;  // of the budget, to find the fastest frame
+constexpr int kCalibrationPart = 8;    // of a reference's samples
+constexpr double kMostCorrection = 8;  // more is the clock's fault
 constexpr double kSurveyShare = 0.1;   // likewise, to find settings that do nothing
 
 }  // namespace
@@ -28,8 +30,7 @@ double median_of(std::vector<double> values) {
 }
 
 void add_stage_shares(TradeWork& work, const TimedFrame& timed) {
-    for (size_t s = 0; s < kStageCount; ++s)
-        work.stage_shares[s] += timed.stages[s] / timed.cpu_ms;
+    for (size_t s = 0; s < kStageCount; ++s) work.stage_shares[s] += timed.stages[s] / timed.cpu_ms;
 }
 
 void Measurement::tell(const std::string& text) const {
@@ -63,8 +64,8 @@ bool Measurement::build_bases() {
 // The frames, what renders cost, and what the variants do.
 bool Measurement::look_ahead() {
     const double budget_ms = 1e3 * request_.budget_s;
-    ChosenFrames chosen = choose_trade_frames(request_.frames, renders_, *final_.scene,
-                                              kFramesShare * budget_ms);
+    ChosenFrames chosen =
+        choose_trade_frames(request_.frames, renders_, *final_.scene, kFramesShare * budget_ms);
     results_.frames = std::move(chosen.frames);
     results_.fastest_step = chosen.fastest_step;
     const double build_ms = input_.costs.build;
@@ -76,7 +77,28 @@ bool Measurement::look_ahead() {
                                           .budget_ms = budget_ms});
     input_.costs.build = build_ms;
     survey();
+    calibrate();
     return !renders_.stopped();
+}
+
+// A longer render of the size to come tells better what a sample takes than the trial's few.
+void Measurement::calibrate() {
+    fill_plan_input();
+    const Plan plan = choose_plan(input_);
+    Quality quality = variants_[kReferenceRow].quality;
+    quality.samples_per_pixel = std::max(1, plan.reference_samples / kCalibrationPart);
+    renders_.set_size(plan.width, plan.height);
+    raytrace::Film scrap;
+    const double ms =
+        renders_.frame(*reference_scene_, quality, results_.frames[0], 1, scrap).wall_ms;
+    TrialCosts& costs = input_.costs;
+    const double estimated = costs.reference_sample * double(quality.samples_per_pixel) *
+                             double(plan.width) * double(plan.height);
+    if (!(estimated > 0) || !(ms > costs.frame)) return;
+    const double scale =
+        std::clamp((ms - costs.frame) / estimated, 1 / kMostCorrection, kMostCorrection);
+    costs.sample *= scale;
+    costs.reference_sample *= scale;
 }
 
 void Measurement::survey() {
@@ -106,7 +128,7 @@ void Measurement::survey() {
     }
 }
 
-bool Measurement::make_plan() {
+void Measurement::fill_plan_input() {
     input_.width = results_.asked_width;
     input_.height = results_.asked_height;
     input_.frames = results_.frames.size();
@@ -114,9 +136,14 @@ bool Measurement::make_plan() {
     input_.used_ms = watch_.ms();
     input_.reference_samples = qualities()[kReferenceRow].samples_per_pixel;
     input_.combinations = request_.combinations;
+    input_.sample_settings.clear();
     const Knob& spp = *find_knob(kSamplesOption);
     for (std::string_view setting : spp.settings)
         input_.sample_settings.push_back(int(*knob_value(spp, setting)));
+}
+
+bool Measurement::make_plan() {
+    fill_plan_input();
     const Plan& plan = results_.plan = choose_plan(input_);
     if (!plan.fits && input_.used_ms + plan.least_ms > input_.budget_ms) {
         std::fprintf(stderr,
@@ -149,14 +176,12 @@ void Measurement::make_rows() {
     for (size_t v = 0; v < variants_.size(); ++v) {
         Variant& variant = variants_[v];
         if (v >= input_.variants.size())
-            input_.variants.push_back(
-                {.samples = variant.quality.samples_per_pixel,
-                 .base_samples = qualities()[variant.base].samples_per_pixel,
-                 .final_base = variant.base == kFinalRow});
+            input_.variants.push_back({.samples = variant.quality.samples_per_pixel,
+                                       .base_samples = qualities()[variant.base].samples_per_pixel,
+                                       .final_base = variant.base == kFinalRow});
         TradeRow row{.variant = std::move(variant)};
         row.as_base = v != kReferenceRow && input_.variants[v].same;
-        if (row.as_base)
-            row.not_measured = "the same bits and counts as its base in " + surveyed_;
+        if (row.as_base) row.not_measured = "the same bits and counts as its base in " + surveyed_;
         results_.rows.push_back(std::move(row));
     }
 }
@@ -238,9 +263,10 @@ bool Measurement::make_reference() {
     results_.floor = row.errors;
     row.picture_png = results_.reference_png;
     conclude(work);
-    tell(fmt::format("tradeoff: noise floor FLIP {:.4f}, RMSE {:.5f}; references {:.1f} s, all {:.1f} s",
-                     results_.floor.picture.flip, results_.floor.picture.rmse, results_.reference_s,
-                     1e-3 * watch_.ms()));
+    tell(fmt::format(
+        "tradeoff: noise floor FLIP {:.4f}, RMSE {:.5f}; references {:.1f} s, all {:.1f} s",
+        results_.floor.picture.flip, results_.floor.picture.rmse, results_.reference_s,
+        1e-3 * watch_.ms()));
     return true;
 }
 

@@ -1,5 +1,5 @@
-// runtime/programs/tradeoff/measurement_p.h: a trade-off under way. Renders the references, then each
-// variant between two renders of its base, so that what else the machine does changes both.
+// runtime/programs/tradeoff/measurement_p.h: a trade-off under way. Renders the references, then
+// each variant between two renders of its base, so that what else the machine does changes both.
 #pragma once
 
 #include "runtime/base/stats.h"
@@ -50,6 +50,8 @@ class Measurement {
     bool build_bases();
     bool look_ahead();
     void survey();
+    void calibrate();
+    void fill_plan_input();
     bool make_plan();
     void make_rows();
     void lower(TradeBase& base, int samples);

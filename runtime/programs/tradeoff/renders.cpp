@@ -10,10 +10,10 @@ namespace kinora {
 namespace {
 
 WorkCounts work_of(const FrameStats& s) {
-    return {s.camera_rays.rays,        s.camera_rays.shadow_rays,    s.shader_rays.rays,
-            s.shader_rays.shadow_rays, s.camera_rays.packets,        s.shader_rays.packets,
+    return {s.camera_rays.rays,           s.camera_rays.shadow_rays, s.shader_rays.rays,
+            s.shader_rays.shadow_rays,    s.camera_rays.packets,     s.shader_rays.packets,
             s.shader_rays.shadow_packets, s.shading_points,          s.light_points,
-            uint64_t(s.refits),        uint64_t(s.rebuilds)};
+            uint64_t(s.refits),           uint64_t(s.rebuilds)};
 }
 
 }  // namespace

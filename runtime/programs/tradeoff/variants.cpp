@@ -15,7 +15,7 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kMostRounds = 8;
+constexpr size_t kMostRounds = 16;
 constexpr size_t kMostVerticesCompared = 1 << 14;  // of a shape
 constexpr double kForReports = 0.02;               // of the budget
 constexpr std::string_view kUlp = "ULP";           // the error of knobs that change arithmetic
@@ -218,7 +218,8 @@ void Measurement::measure_variants() {
     for (const std::vector<size_t>& chunk : chunks) planned += cost_of(chunk);
     const double begin = watch_.ms();
     for (const std::vector<size_t>& chunk : chunks) {
-        const double cost = cost_of(chunk), room = left_ms() - kForReports * 1e3 * request_.budget_s;
+        const double cost = cost_of(chunk),
+                     room = left_ms() - kForReports * 1e3 * request_.budget_s;
         const bool presets = results_.rows[chunk[0]].variant.kind == VariantKind::Preset;
         const double rounds = double(presets ? plan.preset_rounds : plan.rounds);
         if (done > 0) pace_ = (watch_.ms() - begin) / done;

@@ -55,8 +55,7 @@ TEST(Errors, OfEqualPicturesAreNone) {
 }
 
 TEST(Errors, OfConstantsAreThoseByHand) {
-    PictureErrors e =
-        picture_errors(constant(vec3(0.75f)).view(), constant(vec3(0.5f)).view());
+    PictureErrors e = picture_errors(constant(vec3(0.75f)).view(), constant(vec3(0.5f)).view());
     EXPECT_NEAR(e.rmse, 0.25, 1e-12);
     EXPECT_NEAR(e.relative_mse, 0.0625 / 0.26, 1e-12);
     EXPECT_NEAR(e.max_error, 0.25, 1e-12);
@@ -93,8 +92,8 @@ TEST(Errors, GrowWithNoise) {
     }
 }
 
-// Section III.B of the 2004 paper, pixel by pixel: moments about the mean under an 11 by 11 Gaussian
-// of sigma 1.5 whose weights sum to 1.
+// Section III.B of the 2004 paper, pixel by pixel: moments about the mean under an 11 by 11
+// Gaussian of sigma 1.5 whose weights sum to 1.
 double ssim_by_the_paper(const Plane& x, const Plane& y) {
     double all = 0;
     for (int py = 0; py < x.height; ++py)
@@ -202,7 +201,8 @@ TEST(Flip, WeighsEdges) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = kWidth / 2; x < kWidth; ++x)
             edge.rgba[size_t(y * kWidth + x)] = vec4(0.55f, 0.55f, 0.55f, 1);
-    Plane missing = ldr_flip(edge.view(), flat.view()), shaded = ldr_flip(shade.view(), flat.view());
+    Plane missing = ldr_flip(edge.view(), flat.view()),
+          shaded = ldr_flip(shade.view(), flat.view());
     const size_t beside = size_t(kHeight / 2 * kWidth + kWidth / 2);
     EXPECT_GT(missing[beside], shaded[beside]);
     EXPECT_LT(missing[0], 1e-9);
@@ -243,9 +243,9 @@ TEST(HdrFlip, IsAtLeastTheFlipAtEachExposure) {
             for (vec4& c : p.rgba)
                 for (int k = 0; k < 3; ++k) {
                     const double x = std::exp2(exposures.at(e)) * double(c[k]);
-                    c[k] = float(std::clamp((0.9036 * x * x + 0.018 * x) /
-                                                (0.8748 * x * x + 0.354 * x + 0.14),
-                                            0.0, 1.0));
+                    c[k] = float(std::clamp(
+                        (0.9036 * x * x + 0.018 * x) / (0.8748 * x * x + 0.354 * x + 0.14), 0.0,
+                        1.0));
                 }
         const Plane ldr = ldr_flip(shown[0].view(), shown[1].view());
         for (size_t i = 0; i < ldr.size(); ++i) most[i] = std::max(most[i], ldr[i]);

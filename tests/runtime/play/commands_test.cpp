@@ -160,8 +160,9 @@ TEST(Script, ARecordOfTheClockLeadsToTheSameState) {
         ASSERT_TRUE(player.record_to(file));
         ASSERT_TRUE(player.wait_picture(kLong));
         Script script(player, "clock", [](const std::string& line) { ADD_FAILURE() << line; });
-        ASSERT_TRUE(script.run("play on\nwait 0.37\norbit 20 3\nturntable\nwait 0.21\ndolly 1.2\n"
-                               "loop pingpong\nwait 0.3\nevery_frame\nwait 0.2\npause\n"));
+        ASSERT_TRUE(
+            script.run("play on\nwait 0.37\norbit 20 3\nturntable\nwait 0.21\ndolly 1.2\n"
+                       "loop pingpong\nwait 0.3\nevery_frame\nwait 0.2\npause\n"));
         camera = player.observe(Observable::Camera);
         time = player.observe(Observable::Time);
         playback = player.observe(Observable::Playback);
