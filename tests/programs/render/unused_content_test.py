@@ -232,7 +232,7 @@ class UnusedContent(ProgramTest):
     def test_what_a_branch_never_reaches_is_not_there(self):
         """Du, a texture and lights behind a condition that is false at compile time."""
         png.write(self.folder / "red.png", 2, 2, [bytes([255, 0, 0] * 2)] * 2)
-        code = ('surface s(float on = {};) {{ Oi = 1; Ci = 1; if (on > 0) Ci = Du(noise(P)) + texture("red.png") + '
+        code = ('surface s() {{ float on = {}; Oi = 1; Ci = 1; if (on > 0) Ci = Du(noise(P)) + texture("red.png") + '
                 "diffuse(normalize(N)); }}")
         library, node = lamps(1, "key")
 
