@@ -165,7 +165,7 @@ class Explain(ProgramTest):
 
     def test_lights_that_are_not_placed(self):
         rows = self.explained(self.written(LIT, lamp()), "--lights", "scene")
-        self.assertEqual([r["modelled"] for r in self.row(rows, "lights", "1 lights: never run")], [False])
+        self.assertEqual([r["modelled"] for r in self.row(rows, "lights", "never run")], [False], rows)
         placed = self.explained(self.written(LIT, lamp(), FAR), "--lights", "scene")
         self.assertEqual(self.row(placed, "lights", "never run"), [])
 
@@ -215,7 +215,7 @@ class Explain(ProgramTest):
         for name, module in (("red.png", False), ("red.bmp", True)):
             look = rsl(f'surface s() {{ Oi = 1; Ci = texture("{name}", s, t); }}')
             rows = self.explained(self.written(look))
-            self.assertTrue(self.row(rows, "textures", f"{name}: read: 2 x 2")[0]["modelled"], rows["textures"])
+            self.assertTrue(self.row(rows, "textures", f"{name}: ")[0]["modelled"], rows["textures"])
             self.assertEqual(self.row(rows, "textures", "OpenImageIO: not loaded") == [], module)
         missing = self.explained(self.written(rsl('surface s() { Oi = 1; Ci = texture("none.png", s, t); }')))
         self.assertFalse(self.row(missing, "textures", "checks are shown")[0]["modelled"])
