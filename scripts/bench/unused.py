@@ -39,8 +39,9 @@ ROWS = (
     ("lights of another category", 100, lambda n: content.one_lamp_and(*content.lamps(n, "fill")), 1.02),
     ("unused parameters and outputs", 1000, content.unused_parameters, 1.02),
 )
-# Of walker.dae no shader asks for a category.
-OTHER_BASES = {"lights of another category": content.one_lamp_and()}
+# Of walker.dae no shader asks for a category. Lamps are added to it without its author.
+OTHER_BASES = {"lights of another category": content.one_lamp_and(), "black lights": content.AUTHORLESS,
+               "spots that look away": content.AUTHORLESS}
 
 
 def frames_ms(scene):
