@@ -45,7 +45,7 @@ OTHER_BASES = {"lights of another category": content.one_lamp_and(), "black ligh
 
 
 def frames_ms(scene):
-    done = render(scene, "-o", "null", "--size", "96x54", "--spp", "2", "--frames", f"2-{FRAMES + 1}", "--threads", "1",
+    done = render(scene, "-o", "null", "--size", "192x108", "--spp", "2", "--frames", f"2-{FRAMES + 1}", "--threads", "1",
                   "--stats=json", "-q")
     if done.code:
         sys.exit(done.err)
