@@ -34,10 +34,10 @@ std::vector<uint32_t> last_writers(const Animation& animation) {
     return writer;
 }
 
-void evaluate_channel(const Animation& animation, size_t index, double time,
-                      std::span<double> values, std::span<uint64_t> changed) {
+void evaluate_channel(const Animation& animation, std::span<const Sampler> samplers, size_t index,
+                      double time, std::span<double> values, std::span<uint64_t> changed) {
     const Channel& channel = animation.channels[index];
-    const Sampler& sampler = animation.samplers[channel.sampler];
+    const Sampler& sampler = samplers[channel.sampler];
     bool differs = false;
     uint32_t end = channel.component + std::min(channel.count, sampler.stride - channel.component);
     for (uint32_t w = animation.first_write[index]; w < animation.first_write[index + 1];) {
@@ -84,12 +84,14 @@ Animation make_animation(std::vector<Sampler> samplers, std::vector<Channel> cha
 }
 
 void evaluate(const Animation& animation, double time_seconds, std::span<double> values,
-              std::span<uint64_t> changed) {
+              std::span<uint64_t> changed, std::span<const Sampler> samplers) {
+    if (samplers.empty()) samplers = animation.samplers;
+    CHECK_EQ(samplers.size(), animation.samplers.size());
     CHECK_GE(values.size(), animation.slot_count);
     CHECK_GE(changed.size() * 64, animation.owner_count);
     parallel_for(0, animation.channels.size(), kChannelGrain, [&](size_t begin, size_t end) {
         for (size_t c = begin; c < end; ++c)
-            evaluate_channel(animation, c, time_seconds, values, changed);
+            evaluate_channel(animation, samplers, c, time_seconds, values, changed);
     });
 }
 

@@ -32,9 +32,10 @@ Animation make_animation(std::vector<Sampler> samplers, std::vector<Channel> cha
 
 // Writes every channel's numbers at `time_seconds` into `values` and sets bit `owner` of `changed`
 // (bit o of word o / 64) where a number became another; bits are never cleared here. The numbers
-// depend on the time alone. Parallel where there are many channels; no allocation.
+// depend on the time alone. Parallel where there are many channels; no allocation. `samplers`: as
+// many that stand for the animation's own (anim/baked.h); none: these themselves.
 void evaluate(const Animation& animation, double time_seconds, std::span<double> values,
-              std::span<uint64_t> changed);
+              std::span<uint64_t> changed, std::span<const Sampler> samplers = {});
 
 // Words of `changed` that hold a bit for each owner.
 constexpr size_t changed_words(size_t owners) {

@@ -52,7 +52,8 @@ void evaluate_step(const Sampler& sampler, size_t segment, double, uint32_t firs
 
 void evaluate_matrix(const Sampler& sampler, size_t segment, double s, uint32_t first,
                      std::span<double> out) {
-    Matrix16 m = compose(interpolate(sampler.rigid[segment], sampler.rigid[segment + 1], s));
+    Matrix16 m = compose(
+        interpolate(sampler.rigid[segment], sampler.rigid[segment + 1], s, sampler.rotation));
     std::copy_n(m.begin() + first, out.size(), out.data());
 }
 
@@ -60,9 +61,9 @@ Quaternion quaternion_at(const double* xyzw) {
     return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]};
 }
 
-void evaluate_slerp(const double* left, const double* right, double s, uint32_t first,
-                    std::span<double> out) {
-    Quaternion q = slerp(quaternion_at(left), quaternion_at(right), s);
+void evaluate_rotation(const double* left, const double* right, double s, RotationPath path,
+                       uint32_t first, std::span<double> out) {
+    Quaternion q = between(quaternion_at(left), quaternion_at(right), s, path);
     const double xyzw[4] = {q.x, q.y, q.z, q.w};
     std::copy_n(xyzw + first, out.size(), out.data());
 }
@@ -76,7 +77,7 @@ void evaluate_linear(const Sampler& sampler, size_t segment, double offset, uint
     bool moves = s > 0 && std::memcmp(left, right, sampler.stride * sizeof(double)) != 0;
     if (moves && !sampler.rigid.empty()) return evaluate_matrix(sampler, segment, s, first, out);
     if (moves && sampler.kind == SampleKind::Quaternion)
-        return evaluate_slerp(left, right, s, first, out);
+        return evaluate_rotation(left, right, s, sampler.rotation, first, out);
     for (size_t i = 0; i < out.size(); ++i) out[i] = mix(left[first + i], right[first + i], s);
 }
 

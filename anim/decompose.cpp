@@ -1,4 +1,4 @@
-// anim/decompose.cpp: polar decomposition by a one-sided Jacobi SVD, and slerp.
+// anim/decompose.cpp: polar decomposition by a one-sided Jacobi SVD, slerp and nlerp.
 #include "anim/decompose.h"
 
 #include <glm/geometric.hpp>
@@ -145,6 +145,18 @@ Quaternion slerp(const Quaternion& from, const Quaternion& to, double s) {
         multiply(a, {std::cos(s * half_angle), scale * turn.x, scale * turn.y, scale * turn.z}));
 }
 
+Quaternion nlerp(const Quaternion& from, const Quaternion& to, double s) {
+    Quaternion a = normalized(from), b = normalized(to);
+    // b or -b, whichever is nearer
+    const Quaternion end = multiply(a, short_way(multiply({a.w, -a.x, -a.y, -a.z}, b)));
+    return normalized({a.w + (end.w - a.w) * s, a.x + (end.x - a.x) * s, a.y + (end.y - a.y) * s,
+                       a.z + (end.z - a.z) * s});
+}
+
+Quaternion between(const Quaternion& a, const Quaternion& b, double s, RotationPath path) {
+    return path == RotationPath::Slerp ? slerp(a, b, s) : nlerp(a, b, s);
+}
+
 RigidStretch decompose(const Matrix16& m) {
     RigidStretch r;
     dmat3 a;
@@ -176,10 +188,11 @@ Matrix16 compose(const RigidStretch& r) {
     return m;
 }
 
-RigidStretch interpolate(const RigidStretch& a, const RigidStretch& b, double s) {
+RigidStretch interpolate(const RigidStretch& a, const RigidStretch& b, double s,
+                         RotationPath path) {
     RigidStretch r;
     r.translation = a.translation + (b.translation - a.translation) * s;
-    r.rotation = slerp(a.rotation, b.rotation, s);
+    r.rotation = between(a.rotation, b.rotation, s, path);
     r.stretch = a.stretch + (b.stretch - a.stretch) * s;
     r.last_row = a.last_row + (b.last_row - a.last_row) * s;
     return r;

@@ -89,6 +89,7 @@ struct Sampler {
     Behaviour pre = Behaviour::Constant;
     Behaviour post = Behaviour::Constant;
     SampleKind kind = SampleKind::Numbers;
+    RotationPath rotation = RotationPath::Slerp;  // of matrices and quaternions
 
     bool empty() const { return times.empty(); }
     double first_time() const { return times.front(); }

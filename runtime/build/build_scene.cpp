@@ -89,6 +89,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     displace(scene, uses, again ? &again->view : nullptr, stop, diagnostics);
     if (stopped()) return nullptr;
 
+    scene.baked_samplers = anim::baked(scene.description->animation, options.keys);
     set_rows(scene);
     scene.shading = std::make_unique<Shading>(scene);
     return made;

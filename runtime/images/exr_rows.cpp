@@ -57,24 +57,28 @@ std::string caught(int& number, Call&& call) {
     }
 }
 
+Imf::Rgba halves_of(const vec4& p) {
+    return {to_half(p.x), to_half(p.y), to_half(p.z), to_half(p.w)};
+}
+
 constexpr const char* kColors[] = {"R", "G", "B", "A"};
 
-// RGBA as half, and each plane of the film as a float channel of its name.
+// RGBA, and each plane of the film as a float channel of its name.
 class ExrRowsToFile final : public RowWriter {
   public:
-    ExrRowsToFile(const std::string& path, OpenFile file)
-        : file_(std::move(file)), stream_(path, file_.get()) {}
+    ExrRowsToFile(const std::string& path, OpenFile file, PictureDepth depth)
+        : file_(std::move(file)), stream_(path, file_.get()), depth_(depth) {}
 
     void begin(const raytrace::Film& film, int height, const ImageTexts& texts) {
         Imf::Header header(film.width, height);
         header.compression() = Imf::ZIP_COMPRESSION;
         for (const auto& [key, value] : texts) header.insert(key, Imf::StringAttribute(value));
-        if (film.aovs.empty()) {
+        if (film.aovs.empty() && depth_ == PictureDepth::Half) {
             colors_.emplace(stream_, header, Imf::WRITE_RGBA, 0);
             return;
         }
         Imf::ChannelList& channels = header.channels();
-        for (const char* name : kColors) channels.insert(name, Imf::Channel(Imf::HALF));
+        for (const char* name : kColors) channels.insert(name, Imf::Channel(color_type()));
         for (const raytrace::AovPlane& plane : film.aovs) {
             // A parameter that is called like a channel of the picture is R.V there.
             const bool taken = channels.findChannel(plane.name) != nullptr;
@@ -85,10 +89,9 @@ class ExrRowsToFile final : public RowWriter {
     }
 
     std::string write(const raytrace::Film& band, int& number) override {
-        pixels_.resize(band.rgba.size());
-        for (size_t i = 0; i < pixels_.size(); ++i) {
-            const vec4& p = band.rgba[i];
-            pixels_[i] = Imf::Rgba(to_half(p.x), to_half(p.y), to_half(p.z), to_half(p.w));
+        if (depth_ == PictureDepth::Half) {
+            pixels_.resize(band.rgba.size());
+            std::ranges::transform(band.rgba, pixels_.begin(), halves_of);
         }
         return caught(number, [&] { colors_ ? write_colors(band) : write_all(band); });
     }
@@ -103,6 +106,9 @@ class ExrRowsToFile final : public RowWriter {
     }
 
   private:
+    Imf::PixelType color_type() const {
+        return depth_ == PictureDepth::Half ? Imf::HALF : Imf::FLOAT;
+    }
     // Frame buffers begin at the picture's first row.
     void write_colors(const raytrace::Film& band) {
         const size_t width = size_t(band.width);
@@ -117,8 +123,11 @@ class ExrRowsToFile final : public RowWriter {
             char* base = const_cast<char*>(static_cast<const char*>(first));
             buffer.insert(name, Imf::Slice(type, base - row * size_t(band.top), step, row));
         };
-        const half* const first[] = {&pixels_[0].r, &pixels_[0].g, &pixels_[0].b, &pixels_[0].a};
-        for (size_t k = 0; k < 4; ++k) add(kColors[k], Imf::HALF, first[k], sizeof(Imf::Rgba));
+        for (size_t k = 0; k < 4; ++k)
+            if (depth_ == PictureDepth::Half)
+                add(kColors[k], Imf::HALF, &pixels_[0].r + k, sizeof(Imf::Rgba));
+            else
+                add(kColors[k], Imf::FLOAT, &band.rgba[0].x + k, sizeof(vec4));
         for (size_t k = 0; k < band.aovs.size(); ++k)
             if (band.aovs[k].in_file)
                 add(plane_channels_[k], Imf::FLOAT, band.aovs[k].values.data(), sizeof(float));
@@ -128,16 +137,26 @@ class ExrRowsToFile final : public RowWriter {
 
     OpenFile file_;
     ExrStream stream_;
-    std::optional<Imf::RgbaOutputFile> colors_;  // without planes
+    PictureDepth depth_;
+    std::optional<Imf::RgbaOutputFile> colors_;  // halves without planes
     std::optional<Imf::OutputFile> all_;
     std::vector<std::string> plane_channels_;
-    std::vector<Imf::Rgba> pixels_;
+    std::vector<Imf::Rgba> pixels_;  // of halves
 };
 
 }  // namespace
 
+void round_to_depth(raytrace::Film& film, PictureDepth depth) {
+    if (depth == PictureDepth::Float) return;
+    for (vec4& p : film.rgba) {
+        const Imf::Rgba h = halves_of(p);
+        p = vec4(h.r, h.g, h.b, h.a);
+    }
+}
+
 std::unique_ptr<RowWriter> exr_rows(const std::string& path, const raytrace::Film& film, int height,
-                                    const ImageTexts& texts, std::string& error, int& number) {
+                                    PictureDepth depth, const ImageTexts& texts,
+                                    std::string& error, int& number) {
     errno = 0;
     OpenFile file(std::fopen(path.c_str(), "wb"));
     if (!file) {
@@ -145,7 +164,7 @@ std::unique_ptr<RowWriter> exr_rows(const std::string& path, const raytrace::Fil
         error = std::strerror(errno);
         return nullptr;
     }
-    auto rows = std::make_unique<ExrRowsToFile>(path, std::move(file));
+    auto rows = std::make_unique<ExrRowsToFile>(path, std::move(file), depth);
     error = caught(number, [&] { rows->begin(film, height, texts); });
     if (!error.empty()) rows.reset();
     return rows;

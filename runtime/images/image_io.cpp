@@ -142,9 +142,10 @@ std::string write_png(const std::string& path, const Image8& image, const ImageT
 }
 
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
-                        const ImageTexts& texts, int* errno_out) {
+                        const ImageTexts& texts, int* errno_out, PictureDepth depth) {
     PictureFile file;
-    return write_rows(file, file.begin(path, film, film.height, encoding, texts), film, errno_out);
+    return write_rows(file, file.begin(path, film, film.height, encoding, texts, depth), film,
+                      errno_out);
 }
 
 namespace {

@@ -13,6 +13,12 @@ namespace kinora {
 
 enum class ColorEncoding : uint8_t { Linear, Srgb };
 
+// How an EXR has its colours: 2^-11 of a value, and 65504 at most, or as they were rendered.
+enum class PictureDepth : uint8_t { Half, Float };
+
+// The film as a file of that depth has it.
+void round_to_depth(raytrace::Film& film, PictureDepth depth);
+
 // Texts kept in the file's header: ("kinora/fingerprint", "...").
 using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 
@@ -25,12 +31,12 @@ struct Image8 {
 // Film (linear, associated) to 8 bits: unassociated; sRGB-encoded (IEC 61966-2-1) or as is.
 Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding);
 
-// Writes by the extension, .png (encoding as given) or .exr (half RGBA, linear, associated; ZIP;
-// the film's planes as float channels):
-// to a temporary name beside it, fsync, rename. Makes missing directories. Returns an error text
+// Writes by the extension, .png (encoding as given) or .exr (RGBA of that depth, linear, associated;
+// ZIP; the film's planes as float channels): to a temporary name beside it, fsync, rename. Makes missing directories. Returns an error text
 // ("No space left on device"), or "" when done; errno_out (if given) gets the system's number.
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
-                        const ImageTexts& texts, int* errno_out = nullptr);
+                        const ImageTexts& texts, int* errno_out = nullptr,
+                        PictureDepth depth = PictureDepth::Half);
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
                       int* errno_out = nullptr);
 

@@ -57,10 +57,11 @@ std::string PictureFile::begin_with(const std::string& path, Make&& make) {
 }
 
 std::string PictureFile::begin(const std::string& path, const raytrace::Film& film, int height,
-                               ColorEncoding encoding, const ImageTexts& texts) {
+                               ColorEncoding encoding, const ImageTexts& texts,
+                               PictureDepth depth) {
     return begin_with(path, [&](std::string& error) -> std::unique_ptr<RowWriter> {
         if (has_extension(path, {".exr"}))
-            return exr_rows(temporary_, film, height, texts, error, number_);
+            return exr_rows(temporary_, film, height, depth, texts, error, number_);
         return png_rows(temporary_, film.width, height, encoding, texts, error, number_);
     });
 }

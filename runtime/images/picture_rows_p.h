@@ -17,7 +17,8 @@ std::unique_ptr<PngRows> png_rows(const std::string& path, int width, int height
                                   ColorEncoding encoding, const ImageTexts& texts,
                                   std::string& error, int& number);
 std::unique_ptr<RowWriter> exr_rows(const std::string& path, const raytrace::Film& film, int height,
-                                    const ImageTexts& texts, std::string& error, int& number);
+                                    PictureDepth depth, const ImageTexts& texts,
+                                    std::string& error, int& number);
 
 // Everything written so far is on the disk, or the error text.
 std::string sync_file(std::FILE* file, int& number);

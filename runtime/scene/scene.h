@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "anim/animation.h"
+#include "anim/baked.h"
 #include "jit/math/math.h"
 #include "jit/target.h"
 #include "raytrace/accel.h"
@@ -190,6 +191,8 @@ struct SceneOptions {
     int split = 1;  // hits of a path where both what is reflected and what passes is followed
     int ray_limit = 1000;  // rays that a camera ray's points may shoot (docs/rays.md#budgets)
     raytrace::AccelPolicy accel;
+    anim::KeyOptions keys;    // how curves through keys are followed
+    bool derivatives = true;  // of shaders; false: Du, Dv and the widths of filters are 0
     TextureFilter texture_filter = TextureFilter::Anisotropic;  // the best that lookups have
     bool decode_textures = true;  // 8-bit colours from sRGB; false: --color legacy
     uint32_t light_samples = 0;   // of area lights; 0: the file's, else 16
@@ -235,6 +238,7 @@ struct Scene {
     Scene(const Scene&) = delete;
 
     std::shared_ptr<SceneDescription> description;
+    std::vector<anim::Sampler> baked_samplers;  // instead of the description's; none: those
     std::vector<double> values;
     std::vector<uint64_t> changed;  // owner bits of the last evaluate
     bool first_frame = true;

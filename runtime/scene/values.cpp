@@ -10,7 +10,7 @@ namespace kinora {
 void evaluate(Scene& scene, double time) {
     const SceneDescription& description = *scene.description;
     std::vector<double>& values = scene.values;
-    anim::evaluate(description.animation, time, values, scene.changed);
+    anim::evaluate(description.animation, time, values, scene.changed, scene.baked_samplers);
     for (const MovingColor& color : description.moving_colors) {
         const double* display = &values[color.display];
         dvec3 linear = linear_of_display({display[0], display[1], display[2]});

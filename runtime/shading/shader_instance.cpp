@@ -218,6 +218,16 @@ std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
     return layers;
 }
 
+// Lowers the layers; inputs without partials have none to hand on.
+std::optional<rsl::LoweredShader> lower_layers(std::span<const rsl::Layer> layers,
+                                               const rsl::LowerOptions& lower, bool derivatives,
+                                               Diagnostics& diagnostics) {
+    std::optional<rsl::LoweredShader> lowered = rsl::lower(layers, lower, diagnostics);
+    if (lowered && !derivatives)
+        for (jit::InputInfo& input : lowered->module.inputs) input.du = input.dv = "";
+    return lowered;
+}
+
 bool compile_instance(ShaderInstance& look, const SceneDescription& description,
                       const ShaderInstanceOptions& options, Diagnostics& diagnostics) {
     assign_columns(look);
@@ -251,7 +261,8 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
     compile.dumps = options.dumps;
     compile.files = &diagnostics.files;
     compile.own_lines = options.own_lines;
-    std::optional<rsl::LoweredShader> lowered = rsl::lower(layers, lower, diagnostics);
+    std::optional<rsl::LoweredShader> lowered =
+        lower_layers(layers, lower, options.derivatives, diagnostics);
     if (!lowered) return false;
     look.lowered = std::move(*lowered);
     bind_kernel(look.full, jit::compile(std::move(look.lowered.module), compile), look);
@@ -263,7 +274,8 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
         lower.want_N = false;
         lower.aovs.clear();
         compile.dumps = nullptr;
-        std::optional<rsl::LoweredShader> opacity = rsl::lower(layers, lower, diagnostics);
+        std::optional<rsl::LoweredShader> opacity =
+            lower_layers(layers, lower, options.derivatives, diagnostics);
         if (!opacity) return false;
         look.opacity.emplace();
         bind_kernel(*look.opacity, jit::compile(std::move(opacity->module), compile), look);

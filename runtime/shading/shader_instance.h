@@ -127,6 +127,7 @@ struct ShaderInstanceOptions {
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
     bool own_lines = false;  // jit::CompileOptions
     float opacity_threshold = 0;  // rsl::LowerOptions
+    bool derivatives = true;      // false: Du, Dv and the widths of filters are 0
 };
 
 // The shaders as compile_instance() lowers them, their parameters bound.

@@ -24,20 +24,32 @@ std::string knobs_text() {
     for (const Knob& knob : knobs())
         text += fmt::format("--{:<14} {:<8} {:<22} {}\n", knob.option, knob.stage,
                             fmt::format("{}", fmt::join(knob.settings, " ")), knob.trades);
+    for (const PlayKnob& knob : play_knobs())
+        text += fmt::format("kinora-play: {:<3} {:<8} {:<22} {}\n", knob.command, knob.stage,
+                            fmt::format("{}", fmt::join(knob.settings, " ")), knob.trades);
     return text;
 }
 
 std::string knobs_json() {
     Json rows = Json::array();
     for (const Knob& knob : knobs()) {
-        Json row = {{"name", knob.option},   {"stage", knob.stage}, {"error", knob.error},
-                    {"trades", knob.trades}, {"help", knob.help},   {"settings", Json::array()}};
+        Json row = {{"name", knob.option}, {"program", "kinora-render"}, {"stage", knob.stage},
+                    {"error", knob.error}, {"trades", knob.trades},      {"help", knob.help},
+                    {"settings", Json::array()}};
         for (std::string_view setting : knob.settings)
             row["settings"].push_back(json_of(knob, setting));
         for (size_t p = 0; p < kPresets; ++p)
             row["presets"][kPresetNames[p]] = json_of(knob, knob.presets[p]);
         rows.push_back(std::move(row));
     }
+    for (const PlayKnob& knob : play_knobs())
+        rows.push_back({{"name", knob.command},
+                        {"program", "kinora-play"},
+                        {"stage", knob.stage},
+                        {"error", knob.error},
+                        {"trades", knob.trades},
+                        {"begin", knob.begin},
+                        {"settings", knob.settings}});
     return rows.dump(2) + "\n";
 }
 
@@ -48,6 +60,14 @@ std::string knobs_markdown() {
     for (const Knob& knob : knobs())
         text += fmt::format("| `--{}` | `{}` | {} | {} | {} |\n", knob.option,
                             fmt::join(knob.settings, " "), knob.stage, knob.error, knob.trades);
+    text +=
+        "\nPictures of kinora-play that are not refined have two more. Commands switch them.\n\n"
+        "| command | settings, fastest to reference | at the start | stage | error | what the fast "
+        "end loses |\n|---|---|---|---|---|---|\n";
+    for (const PlayKnob& knob : play_knobs())
+        text += fmt::format("| `{}` | `{}` | {} | {} | {} | {} |\n", knob.command,
+                            fmt::join(knob.settings, " "), knob.begin, knob.stage, knob.error,
+                            knob.trades);
     return text;
 }
 

@@ -48,7 +48,14 @@ std::vector<Knob> make_knobs() {
          [](const Quality& q) { return double(q.member); },                                       \
          [](Quality& q, double value) { q.member = type(value); }},
 #include "runtime/trade/knobs.def"
-#undef KNOB
+    };
+}
+
+std::vector<PlayKnob> make_play_knobs() {
+    return {
+#define PLAY_KNOB(command, settings, begin, stage, error, trades) \
+    PlayKnob{command, words_in(settings), begin, stage, error, trades},
+#include "runtime/trade/knobs.def"
     };
 }
 
@@ -61,6 +68,11 @@ bool same_word(std::string_view a, std::string_view b) {
 
 std::span<const Knob> knobs() {
     static const std::vector<Knob> table = make_knobs();
+    return table;
+}
+
+std::span<const PlayKnob> play_knobs() {
+    static const std::vector<PlayKnob> table = make_play_knobs();
     return table;
 }
 

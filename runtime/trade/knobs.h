@@ -28,6 +28,15 @@ struct Knob {
 };
 
 std::span<const Knob> knobs();
+
+// A row of kinora-play alone.
+struct PlayKnob {
+    std::string_view command;  // of runtime/play/commands.def, which switches it
+    std::vector<std::string_view> settings;
+    std::string_view begin, stage, error, trades;
+};
+std::span<const PlayKnob> play_knobs();
+
 const Knob* find_knob(std::string_view option);  // null: no such knob
 
 // What an option's text means, as `get` gives it; nothing: no such word, or no number. A choice is

@@ -5,7 +5,9 @@
 #include <span>
 #include <string_view>
 
+#include "anim/decompose.h"
 #include "jit/math/math.h"
+#include "runtime/images/image_io.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -15,7 +17,6 @@ struct Quality {
     const char* name = "";
 #define KNOB(type, member, ...) type member{};
 #include "runtime/trade/knobs.def"
-#undef KNOB
 };
 
 inline constexpr size_t kPresets = 4;

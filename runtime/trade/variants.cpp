@@ -111,7 +111,7 @@ void add_combinations(std::vector<Variant>& variants, const CombinationRequest& 
 }
 
 bool is_built_in(const Knob& knob) {
-    return knob.stage != "sample";
+    return knob.stage != "sample" && knob.stage != "film";
 }
 
 std::string scene_key(const Quality& quality) {

@@ -34,7 +34,7 @@ struct CombinationRequest {
 void add_combinations(std::vector<Variant>& list, const CombinationRequest& request);
 
 // Whether a scene must be built again for another setting of the knob; else it says only how
-// samples are made.
+// samples are made or written.
 bool is_built_in(const Knob& knob);
 // Qualities with the same text have one scene.
 std::string scene_key(const Quality& quality);

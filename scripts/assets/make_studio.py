@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Writes assets/scenes/studio.dae and its picture: a tiled floor seen along it, a lamp with a face, two mirrors that
-see each other, and glass that blows up. What knobs of light, textures and rays trade shows here.
+see each other, glass that blows up, and a vane that turns fast. What knobs of light, textures, rays and keys trade
+shows here.
 
     python3 make_studio.py ../../assets/scenes/studio.dae
 """
+import math
 import struct
 import sys
 import zlib
@@ -14,6 +16,7 @@ from make_rays import effect, geometry, icosphere, place, quad  # noqa: E402
 
 TILES = 64  # pixels a side of the picture
 FRAMES = 24
+TURNS = 6  # keys of the vane after the first, each a third of a turn on
 
 
 def png(path):
@@ -59,6 +62,13 @@ light panel(float intensity = 9; color lightcolor = color(1, 0.95, 0.86);) {
 }
 surface glow(color lightcolor = color(1, 0.95, 0.86);) { Oi = 1; Ci = lightcolor; }
 """
+PAINT = """
+surface paint(color tint = color(0.95, 0.75, 0.1);) {
+    normal Nf = faceforward(normalize(N), I);
+    Oi = 1;
+    Ci = tint * (0.15 + diffuse(Nf));
+}
+"""
 SKY = """
 surface sky() { Oi = 1; Ci = mix(color(0.75, 0.8, 0.85), color(0.2, 0.4, 0.7), t); }
 """
@@ -91,17 +101,44 @@ def morph(name, levels):
             f'<input semantic="MORPH_WEIGHT" source="#{name}-weights"/></targets></morph></controller>\n')
 
 
-def animation(name):
-    def source(part, kind, values, param):
-        array = "Name_array" if kind == "name" else "float_array"
-        return (f'<source id="grow-{part}"><{array} id="grow-{part}-a" count="{len(values)}">{" ".join(values)}</{array}>'
-                f'<technique_common><accessor source="#grow-{part}-a" count="{len(values)}"><param name="{param}" '
-                f'type="{kind}"/></accessor></technique_common></source>')
-    return ('<library_animations><animation id="grow">' + source("in", "float", ["0", f"{FRAMES / 24:g}"], "TIME") +
-            source("out", "float", ["0", "1"], "WEIGHT") + source("way", "name", ["LINEAR", "LINEAR"], "INTERPOLATION") +
-            '<sampler id="grow-s"><input semantic="INPUT" source="#grow-in"/><input semantic="OUTPUT" '
-            'source="#grow-out"/><input semantic="INTERPOLATION" source="#grow-way"/></sampler>'
-            f'<channel source="#grow-s" target="{name}-weights(0)"/></animation></library_animations>\n')
+def keys(name, target, times, values, param, kind="float", stride=1):
+    """LINEAR keys of one channel."""
+    def source(part, what, texts, of, accessor):
+        array = "Name_array" if what == "name" else "float_array"
+        return (f'<source id="{name}-{part}"><{array} id="{name}-{part}-a" count="{len(texts)}">{" ".join(texts)}</{array}>'
+                f'<technique_common><accessor source="#{name}-{part}-a" count="{len(times)}"{accessor}><param name="{of}" '
+                f'type="{what if part != "out" else kind}"/></accessor></technique_common></source>')
+    texts = [f"{value:g}" for value in values]
+    return (f'<animation id="{name}">' + source("in", "float", [f"{time:.9g}" for time in times], "TIME", "") +
+            source("out", "float", texts, param, f' stride="{stride}"' if stride > 1 else "") +
+            source("way", "name", ["LINEAR"] * len(times), "INTERPOLATION", "") +
+            f'<sampler id="{name}-s"><input semantic="INPUT" source="#{name}-in"/><input semantic="OUTPUT" '
+            f'source="#{name}-out"/><input semantic="INTERPOLATION" source="#{name}-way"/></sampler>'
+            f'<channel source="#{name}-s" target="{target}"/></animation>')
+
+
+def turned(turns):
+    """About z, where the vane stands; row-major."""
+    c, s = math.cos(2 * math.pi * turns), math.sin(2 * math.pi * turns)
+    return [round(x, 7) for x in (c, -s, 0, 0, s, c, 0, 1.75, 0, 0, 1, -0.5, 0, 0, 0, 1)]
+
+
+def animations():
+    end = FRAMES / 24
+    spin = [x for key in range(TURNS + 1) for x in turned(key / 3)]
+    return ('<library_animations>' + keys("grow", "drop-weights(0)", [0, end], [0, 1], "WEIGHT") +
+            keys("spin", "vane-node/place", [end * key / TURNS for key in range(TURNS + 1)], spin, "TRANSFORM",
+                 "float4x4", 16) + '</library_animations>\n')
+
+
+def vane():
+    """Three blades, each a third of a turn on and of another length."""
+    points, faces = [], []
+    for blade, length in enumerate((0.7, 0.55, 0.4)):
+        c, s = math.cos(2 * math.pi * blade / 3), math.sin(2 * math.pi * blade / 3)
+        points += [(c * x - s * y, s * x + c * y, 0) for x, y in ((0, -0.07), (length, -0.07), (length, 0.07), (0, 0.07))]
+        faces += [(4 * blade + a, 4 * blade + b, 4 * blade + d) for a, b, d in ((0, 1, 2), (0, 2, 3))]
+    return points, [(0, 0, 1)] * len(points), faces
 
 
 def place_morph(name, look, transform):
@@ -115,25 +152,28 @@ def main():
     png(out_path.parent / "studio_tiles.png")
     tiles = tiled("tiles", "studio_tiles.png")
     effects = [tiles[:2], effect("glass", "glass"), code_of("mirror", [("SURFACE", "mirror")], MIRROR),
-               code_of("sky", [("SURFACE", "sky")], SKY), code_of("panel", [("LIGHT", "panel"), ("SURFACE", "glow")], PANEL)]
+               code_of("sky", [("SURFACE", "sky")], SKY), code_of("paint", [("SURFACE", "paint")], PAINT),
+               code_of("panel", [("LIGHT", "panel"), ("SURFACE", "glow")], PANEL)]
     meshes, controller = morph("drop", 3)
     meshes += floor() + geometry("left", quad([(-2.2, 0, 1), (-2.2, 0, -5), (-2.2, 3, -5), (-2.2, 3, 1)], (1, 0, 0)))
     meshes += geometry("right", quad([(2.2, 0, -5), (2.2, 0, 1), (2.2, 3, 1), (2.2, 3, -5)], (-1, 0, 0)))
     meshes += geometry("lamp", quad([(-0.8, 3.4, 0), (-0.8, 3.4, -2), (0.8, 3.4, -2), (0.8, 3.4, 0)], (0, -1, 0)))
-    meshes += geometry("ball", icosphere(3))
-    meshes += geometry("sky", quad([(-60, -1, -49), (60, -1, -49), (60, 40, -49), (-60, 40, -49)], (0, 0, 1)))
+    meshes += geometry("ball", icosphere(3)) + geometry("vane", vane())
+    meshes += geometry("backdrop", quad([(-60, -1, -49), (60, -1, -49), (60, 40, -49), (-60, 40, -49)], (0, 0, 1)))
     nodes = (place("floor", "tiles").replace("</instance_material>", "").replace(
         'target="#tiles"/>', 'target="#tiles"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" '
         'input_set="0"/></instance_material>') + place("left", "mirror") + place("right", "mirror") +
-        place("lamp", "panel") + place("sky", "sky") + place_morph("drop", "glass", "<translate>0.9 0.75 -0.6</translate>"
+        place("lamp", "panel") + place("backdrop", "sky") + place_morph("drop", "glass", "<translate>0.9 0.75 -0.6</translate>"
                                              "<scale>0.3 0.3 0.3</scale>") +
+        place("vane", "paint", f'<matrix sid="place">{" ".join(f"{x:g}" for x in turned(0))}</matrix>').replace(
+            "<node>", '<node id="vane-node">') +
         place("ball", "glass", "<translate>-0.9 0.5 -0.2</translate><scale>0.5 0.5 0.5</scale>") +
         place("ball", "mirror", "<translate>0 0.6 -2.4</translate><scale>0.6 0.6 0.6</scale>"))
     out_path.write_text(
         '<?xml version="1.0" encoding="utf-8"?>\n<!-- Made by scripts/assets/make_studio.py. -->\n'
         '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">\n<asset>'
         '<created>2026-11-24T00:00:00Z</created><modified>2026-11-24T00:00:00Z</modified>'
-        '<unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>\n' + animation("drop") +
+        '<unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>\n' + animations() +
         '<library_cameras><camera id="eye"><optics><technique_common><perspective><yfov>40</yfov>'
         '<aspect_ratio>1.3333</aspect_ratio><znear>0.1</znear><zfar>200</zfar></perspective></technique_common></optics>'
         '</camera></library_cameras>\n'

@@ -146,6 +146,13 @@ TEST(SurfaceParameters, DerivativesFollowTheChainRule) {
         2e-5);
 }
 
+TEST(SurfaceParameters, WithoutDerivativesTheyAreZero) {
+    SceneText scene = floor_scene(show("Du(s), 1 + Dv(t), 0.5 + area(P)"));
+    SceneOptions options;
+    options.derivatives = false;
+    expect_colors(Rendering(scene.text(), options).frame(), [](dvec2) { return dvec3(0, 1, 0.5); });
+}
+
 TEST(SurfaceParameters, TheFootprintIsOnePixel) {
     // 16 pixels show 2 of the 3 units that u runs over.
     SceneText scene = floor_scene(show("du, dv, sqrt(area(P))"));

@@ -120,6 +120,8 @@ void set_quality(SceneOptions& o, const Quality& quality) {
     o.opacity_threshold = float(quality.opacity_threshold);
     o.light_samples = quality.light_samples;
     o.texture_filter = quality.texture_filter;
+    o.derivatives = quality.derivatives;
+    o.keys = {.rate = quality.key_rate, .rotation = quality.rotation};
     o.displacement = quality.displacement;
     o.skin_method = quality.skin_method;
     o.influences = uint32_t(quality.influences);

@@ -25,7 +25,8 @@ bool BandWriter::take(const raytrace::Film& band) {
     Stopwatch watch;
     if (band.top == 0) {
         file_.emplace();
-        frame_.error = file_->begin(frame_.file, band, height_, frame_.color, frame_.texts);
+        frame_.error = file_->begin(frame_.file, band, height_, frame_.color, frame_.texts,
+                                    frame_.depth);
     }
     if (frame_.error.empty()) frame_.error = file_->write(band);
     frame_.number = file_->number();

@@ -12,7 +12,8 @@ namespace {
 
 WrittenFrame write(WrittenFrame frame) {
     Stopwatch watch;
-    frame.error = write_image(frame.file, frame.film, frame.color, frame.texts, &frame.number);
+    frame.error = write_image(frame.file, frame.film, frame.color, frame.texts, &frame.number,
+                              frame.depth);
     frame.ms = watch.ms();
     return frame;
 }

@@ -250,6 +250,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
         .record = number,
         .file = record.file,
         .color = options_.color,
+        .depth = options_.quality.depth,
         .texts = {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}},
         .film = {}};
     const bool in_bands = settings_.band_rows > 0;

@@ -6,6 +6,7 @@
 #include "runtime/base/stats.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/kernel.h"
+#include "runtime/trade/front.h"
 
 namespace kinora {
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr int kCompiles = 20;  // after the cold one; medians are told
 constexpr int kRuns = 11;
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 // One compilation from source to callable code, in ms.
 struct CompileTimes {
@@ -81,7 +77,7 @@ int bench_compile(const ShadeOptions& options, const ShadeSource& source, const 
     auto middle = [&](double CompileTimes::*part) {
         std::vector<double> values;
         for (const CompileTimes& t : warm) values.push_back(t.*part);
-        return median(values);
+        return median_interval(values).median;
     };
     times.middle = {middle(&CompileTimes::front), middle(&CompileTimes::lower),
                     middle(&CompileTimes::optimise), middle(&CompileTimes::emit)};
@@ -101,7 +97,7 @@ void bench_run(const ShadeOptions& options, const ShadeStack& stack, const Patch
         ms.push_back(watch.ms());
     }
     double points = double(patch.count()) * 1e-3;  // Mpoints/s = points / ms * 1e-3
-    times.mpoints = points / median(ms);
+    times.mpoints = points / median_interval(ms).median;
     times.best_mpoints = points / *std::min_element(ms.begin(), ms.end());
     times.points = patch.count();
     times.code_bytes = kernel.pair().point->code_bytes;

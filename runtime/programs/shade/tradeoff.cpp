@@ -1,14 +1,13 @@
 // runtime/programs/shade/tradeoff.cpp: what each target, math tier and use of derivatives of a
 // shader costs, and how far its outputs are from the reference evaluator in double precision.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/cpu_clock.h"
+#include "runtime/compare/ulp.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/compare.h"
 #include "runtime/trade/front.h"
@@ -18,51 +17,6 @@ namespace kinora {
 namespace {
 
 constexpr int kTimes = 11;  // of each setting, one after the other, so that ratios hold
-
-constexpr int kFractionBits = 23, kLeastExponent = -149;
-constexpr double kBeyondFloats = 0x1.ffffffp127;  // halfway from the largest float to 2^128
-
-// The distance of the floats around `exact`; of those below the smallest normal one, 2^-149.
-double ulp_of(double exact) {
-    if (exact == 0) return std::ldexp(1.0, kLeastExponent);
-    return std::ldexp(1.0, std::max(std::ilogb(exact) - kFractionBits, kLeastExponent));
-}
-
-// How far floats are from exact values, in units of the last place.
-class OutputErrors {
-  public:
-    // The bins of the histogram hold errors up to these; the last holds the rest.
-    static constexpr std::array<double, 7> kEdges = {0, 0.5, 1, 2, 4, 16, 256};
-
-    void add(float got, double exact);
-
-    size_t count() const { return count_; }  // of values that are finite where they should be
-    double max() const { return max_; }
-    double mean() const { return count_ ? sum_ / double(count_) : 0; }
-    size_t special() const { return special_; }  // NaN or infinity on one side alone
-    const std::array<size_t, kEdges.size() + 1>& histogram() const { return histogram_; }
-
-  private:
-    size_t count_ = 0, special_ = 0;
-    double max_ = 0, sum_ = 0;
-    std::array<size_t, kEdges.size() + 1> histogram_{};
-};
-
-void OutputErrors::add(float got, double exact) {
-    const bool is_nan = std::isnan(exact), is_inf = std::fabs(exact) >= kBeyondFloats;
-    if (is_nan || is_inf || !std::isfinite(got)) {
-        const bool same = is_nan   ? std::isnan(got)
-                          : is_inf ? std::isinf(got) && std::signbit(got) == std::signbit(exact)
-                                   : false;
-        if (!same) ++special_;
-        return;
-    }
-    const double error = std::fabs(double(got) - exact) / ulp_of(exact);
-    ++count_;
-    sum_ += error;
-    max_ = std::max(max_, error);
-    ++histogram_[size_t(std::ranges::lower_bound(kEdges, error) - kEdges.begin())];
-}
 
 struct Setting {
     const jit::Target* target;
@@ -75,7 +29,7 @@ struct Measured {
     std::unique_ptr<ShadeKernel> kernel;
     ShadeStack stack;  // the kernel points into it
     std::vector<double> ms, ratios;
-    std::map<std::string, OutputErrors> errors;  // by output
+    std::map<std::string, FloatErrors> errors;  // by output
     size_t points_changed = 0;  // with a value other than that of the first setting
 
     double mpoints(size_t points) const {
@@ -135,12 +89,6 @@ std::vector<std::unique_ptr<Measured>> compile_settings(const ShadeOptions& opti
     return rows;
 }
 
-double thread_cpu_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
-}
-
 void time_settings(std::vector<std::unique_ptr<Measured>>& rows, int times) {
     for (auto& row : rows) row->kernel->run();
     for (int i = 0; i < times; ++i) {
@@ -191,7 +139,7 @@ void print_rows(const std::vector<std::unique_ptr<Measured>>& rows, size_t point
 
 void print_histograms(const std::vector<std::unique_ptr<Measured>>& rows) {
     std::printf("\nvalues with an error of at most so many ULP\n%-28s", "");
-    for (double edge : OutputErrors::kEdges) std::printf(" %7g", edge);
+    for (double edge : FloatErrors::kEdges) std::printf(" %7g", edge);
     std::printf("    more\n");
     for (const auto& row : rows)
         for (const auto& [name, errors] : row->errors) {
@@ -247,7 +195,7 @@ int shade_tradeoff(const ShadeOptions& options) {
                                    {"undecided", exact.undecided},
                                    {"without_reference", exact.missing},
                                    {"read_unfiltered", exact.unfiltered},
-                                   {"histogram_edges", OutputErrors::kEdges}};
+                                   {"histogram_edges", FloatErrors::kEdges}};
         all["rows"] = nlohmann::ordered_json::array();
         for (const auto& row : rows) all["rows"].push_back(json_of(*row, patch.count()));
         std::printf("%s\n", all.dump(2).c_str());

@@ -118,8 +118,8 @@ std::string plot_svg(const Plot& plot) {
         html_text(plot.title), kWide, kHigh, axes_svg(x, y, plot));
     if (plot.floor > 0)
         svg += fmt::format(
-            "<path class=floor d=\"M{1} {0:.1f}H{2}\"/><text class=tick x=\"{2}\" y=\"{3:.1f}\" "
-            "text-anchor=end>noise floor</text>",
+            "<path class=floor d=\"M{1} {0:.1f}H{2}\"/><text class=tick x=\"{1}\" y=\"{3:.1f}\">"
+            "noise floor</text>",  // at the left, where slow points' names do not come
             y.at(plot.floor), kLeft, kWide - kRight, y.at(plot.floor) - 4);
     svg += front_svg(plot, x, y, least);
     const std::vector<std::string> series = series_of(plot);

@@ -2,12 +2,12 @@
 #include "runtime/programs/tradeoff/probes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "runtime/base/parallel.h"
 #include "runtime/compare/errors.h"
+#include "runtime/compare/ulp.h"
 
 namespace kinora {
 
@@ -65,12 +65,6 @@ bool for_each_pair(std::span<const std::vector<dvec3>> a, std::span<const std::v
         for (size_t i = 0; i < a[s].size(); ++i) f(a[s][i], b[s][i]);
     }
     return true;
-}
-
-// Floats in order: neighbours differ by 1, and both zeros are 0.
-int64_t ordered_bits(float x) {
-    int64_t bits = std::bit_cast<int32_t>(x);
-    return bits < 0 ? int64_t(std::numeric_limits<int32_t>::min()) - bits : bits;
 }
 
 }  // namespace
@@ -134,12 +128,6 @@ HitErrors hit_errors(std::span<const float> a, std::span<const float> b) {
     }
     errors.mismatch = a.empty() ? 0 : double(alone) / double(a.size());
     return errors;
-}
-
-double ulps_between(float a, float b) {
-    if (std::isnan(a) && std::isnan(b)) return 0;
-    if (std::isnan(a) || std::isnan(b)) return std::numeric_limits<double>::infinity();
-    return double(std::abs(ordered_bits(a) - ordered_bits(b)));
 }
 
 UlpErrors ulp_errors(const PictureView& a, const PictureView& b, std::span<const float> hits_a,

@@ -29,8 +29,6 @@ struct HitErrors {
 };
 HitErrors hit_errors(std::span<const float> a, std::span<const float> b);
 
-// How many floats lie between two numbers; -0 and 0 are one. Infinite if one alone is a NaN.
-double ulps_between(float a, float b);
 struct UlpErrors {
     double max = 0, p99 = 0;
 };

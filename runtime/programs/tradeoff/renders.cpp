@@ -1,8 +1,7 @@
 // runtime/programs/tradeoff/renders.cpp: builds, poses, renders and reads the CPU's clock.
 #include "runtime/programs/tradeoff/renders.h"
 
-#include <ctime>
-
+#include "runtime/base/cpu_clock.h"
 #include "runtime/base/stats.h"
 #include "runtime/trade/knobs.h"
 
@@ -18,12 +17,6 @@ WorkCounts work_of(const FrameStats& s) {
 }
 
 }  // namespace
-
-double process_cpu_ms() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e3 * double(now.tv_sec) + 1e-6 * double(now.tv_nsec);
-}
 
 std::unique_ptr<Scene> TradeRenders::build(const Quality& quality) {
     ImportedScene imported = request_.imported;

@@ -17,8 +17,6 @@ struct TimedFrame {
     bool whole = false;
 };
 
-double process_cpu_ms();  // of all threads
-
 class TradeRenders {
   public:
     TradeRenders(const TradeoffRequest& request, Diagnostics& diagnostics)

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "runtime/base/parallel.h"
+#include "runtime/images/image_io.h"
 #include "runtime/programs/tradeoff/measurement_p.h"
 #include "runtime/programs/tradeoff/probes.h"
 #include "runtime/programs/tradeoff/thumbnails.h"
@@ -47,16 +48,20 @@ Posed Measurement::posed(Scene& scene, const Quality& quality, size_t f, bool co
 }
 
 void Measurement::compare(TradeWork& work, TradeBase& base, size_t f, bool thumbnail) {
-    bool same = f < base.films.size() && same_bits(work.film, base.films[f]);
+    const PictureDepth depth = work.row->variant.quality.depth;
+    bool same = f < base.films.size() && same_bits(work.film, base.films[f]) &&
+                depth == quality_of(base).depth;
     work.same = work.same && same;
     if (same && !thumbnail) {
         work.errors.push_back(base.errors[f]);
         return;
     }
+    raytrace::Film written = work.film;
+    round_to_depth(written, depth);
     Plane map;
-    work.errors.push_back(references_[f].errors_of(view_of(work.film), &map));
+    work.errors.push_back(references_[f].errors_of(view_of(written), &map));
     if (!thumbnail) return;
-    work.row->picture_png = picture_thumbnail(work.film, request_.scene.color);
+    work.row->picture_png = picture_thumbnail(written, request_.scene.color);
     work.row->flip_png = flip_thumbnail(map);
 }
 

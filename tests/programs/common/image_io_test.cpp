@@ -3,6 +3,8 @@
 #include "runtime/images/image_io.h"
 
 #include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfInputFile.h>
 #include <ImfRgbaFile.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -105,6 +107,42 @@ TEST_F(ImageIo, FiniteColoursStayFiniteInAnExr) {
     EXPECT_EQ(float(pixels[0].g), -65504.0f);
     EXPECT_EQ(float(pixels[0].b), 65504.0f);  // halfs are 32 apart there
     EXPECT_TRUE(std::isinf(float(pixels[1].r)));
+}
+
+TEST_F(ImageIo, AnExrOfFloatsKeepsEveryBit) {
+    raytrace::Film film = ramp(9, 4);
+    film.at(0, 0) = vec4(1e6f, -1.0f / 3, 1e-30f, 1.0f);
+    film.add_aov("dirt");
+    film.aovs[0].values.assign(36, 7.0f);
+    for (bool planes : {true, false}) {
+        if (!planes) film.aovs.clear();
+        ASSERT_EQ(write_image(path("a.exr"), film, ColorEncoding::Srgb, {{"k", "v"}}, nullptr,
+                              PictureDepth::Float),
+                  "");
+        EXPECT_EQ(read_image_text(path("a.exr"), "k"), "v");
+        Imf::InputFile file(path("a.exr").c_str());
+        std::vector<float> green(36);
+        Imf::FrameBuffer buffer;
+        buffer.insert("G", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(green.data()),
+                                      sizeof(float), 9 * sizeof(float)));
+        ASSERT_EQ(file.header().channels().findChannel("G")->type, Imf::FLOAT);
+        EXPECT_EQ(file.header().channels().findChannel("dirt") != nullptr, planes);
+        file.setFrameBuffer(buffer);
+        file.readPixels(0, 3);
+        for (size_t i = 0; i < 36; ++i) EXPECT_EQ(green[i], film.rgba[i].y) << i;
+    }
+}
+
+TEST_F(ImageIo, RoundingGivesWhatTheFileHas) {
+    raytrace::Film film(2, 1);
+    film.at(0, 0) = vec4(1e6f, 1.0f / 3, 0.1f, 1.0f);
+    raytrace::Film rounded = film, kept = film;
+    round_to_depth(rounded, PictureDepth::Half);
+    round_to_depth(kept, PictureDepth::Float);
+    EXPECT_EQ(kept.rgba[0], film.rgba[0]);
+    EXPECT_EQ(rounded.rgba[0].x, 65504.0f);
+    EXPECT_EQ(rounded.rgba[0].y, 1365.0f / 4096);  // the nearest of 11 bits: 1365.33
+    EXPECT_EQ(rounded.rgba[0].w, 1.0f);
 }
 
 TEST_F(ImageIo, AParameterCalledLikeAChannelDoesNotReplaceIt) {

@@ -93,6 +93,56 @@ TEST(Errors, GrowWithNoise) {
     }
 }
 
+// Section III.B of the 2004 paper, pixel by pixel: moments about the mean under an 11 by 11 Gaussian
+// of sigma 1.5 whose weights sum to 1.
+double ssim_by_the_paper(const Plane& x, const Plane& y) {
+    double all = 0;
+    for (int py = 0; py < x.height; ++py)
+        for (int px = 0; px < x.width; ++px) {
+            auto sum = [&](auto&& value) {
+                double total = 0, weights = 0;
+                for (int dy = -5; dy <= 5; ++dy)
+                    for (int dx = -5; dx <= 5; ++dx) {
+                        const double w = std::exp(-(dx * dx + dy * dy) / 4.5);
+                        const int at_x = std::clamp(px + dx, 0, x.width - 1);
+                        const int at_y = std::clamp(py + dy, 0, x.height - 1);
+                        total += w * value(size_t(at_y * x.width + at_x));
+                        weights += w;
+                    }
+                return total / weights;
+            };
+            const double mx = sum([&](size_t i) { return x[i]; });
+            const double my = sum([&](size_t i) { return y[i]; });
+            const double sx = sum([&](size_t i) { return (x[i] - mx) * (x[i] - mx); });
+            const double sy = sum([&](size_t i) { return (y[i] - my) * (y[i] - my); });
+            const double sxy = sum([&](size_t i) { return (x[i] - mx) * (y[i] - my); });
+            all += (2 * mx * my + 1e-4) * (2 * sxy + 9e-4) /
+                   ((mx * mx + my * my + 1e-4) * (sx + sy + 9e-4));
+        }
+    return all / double(x.size());
+}
+
+TEST(Ssim, IsThePapers) {
+    const Plane a = encoded_luma(pattern(0.1, 3).view()), b = encoded_luma(pattern().view());
+    EXPECT_NEAR(ssim(a, b), ssim_by_the_paper(a, b), 1e-9);
+    EXPECT_LT(ssim(a, b), 0.95);
+}
+
+// Its three conditions: symmetry, at most 1, and 1 for equal pictures alone. Of a negative, whose
+// structure is the opposite, it is negative.
+TEST(Ssim, KeepsThePapersConditions) {
+    const Plane a = encoded_luma(pattern(0.2, 3).view()), b = encoded_luma(pattern(0.2, 4).view());
+    EXPECT_DOUBLE_EQ(ssim(a, b), ssim(b, a));
+    EXPECT_LT(ssim(a, b), 1);
+    EXPECT_NEAR(ssim(a, a), 1, 1e-12);
+    Plane noise = a, negative = a;
+    for (size_t i = 0; i < a.size(); ++i) {
+        noise[i] = 0.5 + 0.2 * ((i * 2654435761u >> 7) % 2 ? 1 : -1);
+        negative[i] = 1 - noise[i];
+    }
+    EXPECT_LT(ssim(noise, negative), -0.5);
+}
+
 TEST(Percentile, IsTheValueThatAShareDoesNotExceed) {
     std::vector<double> values;
     for (int i = 100; i >= 1; --i) values.push_back(i);
@@ -177,6 +227,31 @@ TEST(HdrFlip, DoesNotDependOnTheScale) {
     for (vec4& c : b.rgba) c = vec4(vec3(c) * 1024.0f, c.w);
     EXPECT_NEAR(mean(hdr_flip(a.view(), b.view())), before, 1e-6);
     EXPECT_GT(before, 0.01);
+}
+
+// ACES as the 2021 paper has it, by hand: (0.9036 x^2 + 0.018 x) / (0.8748 x^2 + 0.354 x + 0.14).
+TEST(HdrFlip, IsAtLeastTheFlipAtEachExposure) {
+    Picture a = pattern(0.1, 3), b = pattern();
+    for (Picture* p : {&a, &b})
+        for (size_t i = 0; i < p->rgba.size(); i += 7) p->rgba[i] *= 8.0f;
+    const FlipExposures exposures = flip_exposures(b.view());
+    const Plane whole = hdr_flip(a.view(), b.view());
+    Plane most(whole.width, whole.height);
+    for (int e = 0; e < exposures.count; ++e) {
+        Picture shown[2] = {a, b};
+        for (Picture& p : shown)
+            for (vec4& c : p.rgba)
+                for (int k = 0; k < 3; ++k) {
+                    const double x = std::exp2(exposures.at(e)) * double(c[k]);
+                    c[k] = float(std::clamp((0.9036 * x * x + 0.018 * x) /
+                                                (0.8748 * x * x + 0.354 * x + 0.14),
+                                            0.0, 1.0));
+                }
+        const Plane ldr = ldr_flip(shown[0].view(), shown[1].view());
+        for (size_t i = 0; i < ldr.size(); ++i) most[i] = std::max(most[i], ldr[i]);
+    }
+    for (size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(whole[i], most[i], 1e-5);
+    EXPECT_GT(exposures.count, 2);
 }
 
 // Differences above 1 are clamped by the one and seen by the other.

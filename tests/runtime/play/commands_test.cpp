@@ -1,12 +1,15 @@
 // tests/runtime/play/commands_test.cpp: every row of the table changes what it says it does.
 #include "runtime/play/commands.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
 #include <sstream>
 
 #include "runtime/images/image_io.h"
+#include "runtime/play/state.h"
+#include "runtime/trade/knobs.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -62,6 +65,21 @@ TEST(Commands, HaveKeysAndWordsOfTheirOwn) {
     }
     EXPECT_EQ(find_command("orbitt"), nullptr);
     EXPECT_EQ(find_command_of_key("Shift"), nullptr);
+}
+
+TEST(Commands, SwitchWhatThePlayersKnobsName) {
+    EXPECT_GE(play_knobs().size(), 2u);
+    for (const PlayKnob& knob : play_knobs()) {
+        const Command* command = find_command(knob.command);
+        ASSERT_TRUE(command) << knob.command;
+        EXPECT_EQ(command->changes, Observable::Picture);
+        EXPECT_EQ(command->arguments, std::string()) << "a switch";
+        EXPECT_NE(std::ranges::find(knob.settings, knob.begin), knob.settings.end());
+    }
+    const PictureState begin;
+    auto word = [](bool on) { return on ? "on" : "off"; };
+    EXPECT_EQ(play_knobs()[0].begin, word(begin.adapt));
+    EXPECT_EQ(play_knobs()[1].begin, word(begin.filter));
 }
 
 TEST(Commands, SplitLinesIntoWords) {

@@ -77,23 +77,30 @@ TEST(Knobs, WordsMeanWhatTheirTypesMean) {
     EXPECT_EQ(q.displacement, DisplacementMode::Bump);
     EXPECT_TRUE(set_knob(*find_knob("bvh"), "rebuild", q) && q.always_rebuild);
     EXPECT_TRUE(set_knob(*find_knob("robust"), "on", q) && q.robust);
+    EXPECT_TRUE(set_knob(*find_knob("derivatives"), "on", q) && q.derivatives);
+    EXPECT_TRUE(set_knob(*find_knob("rotation"), "slerp", q));
+    EXPECT_EQ(q.rotation, anim::RotationPath::Slerp);
+    EXPECT_TRUE(set_knob(*find_knob("depth"), "float", q));
+    EXPECT_EQ(q.depth, PictureDepth::Float);
+    EXPECT_TRUE(set_knob(*find_knob("texture-filter"), "trilinear", q));
+    EXPECT_EQ(q.texture_filter, TextureFilter::Trilinear);
 }
 
-// The presets as they were before there was a table.
+// What --quality means changes by intent alone.
 TEST(Presets, AreTheKnownOnes) {
     ASSERT_EQ(qualities().size(), kPresets);
     const Quality& draft = *find_quality("draft");
     EXPECT_EQ(knob_texts(draft),
-              "spp=1 filter=gaussian math=fast robust=off bvh=refit refit-limit=1.3 "
-              "skin=linear influences=0 displacement=bump dice=8 rays=4 bounces=1 split=1 "
-              "ray-limit=1000 light-samples=0 "
-              "weak-lights=0.00195 shadows=auto");
+              "spp=1 filter=gaussian math=fast robust=off bvh=refit refit-limit=1.3 keys=0 "
+              "rotation=slerp skin=linear influences=0 displacement=bump dice=8 rays=4 bounces=1 "
+              "split=1 ray-limit=1000 light-samples=0 texture-filter=anisotropic derivatives=on "
+              "weak-lights=0.00195 opacity-threshold=0.004 shadows=auto depth=half");
     const Quality& final_ = *find_quality("final");
     EXPECT_EQ(knob_texts(final_),
-              "spp=64 filter=gaussian math=precise robust=on bvh=refit refit-limit=1.3 "
-              "skin=linear influences=0 displacement=true dice=2 rays=16 bounces=1 split=1 "
-              "ray-limit=1000 light-samples=0 "
-              "weak-lights=0.00024 shadows=auto");
+              "spp=64 filter=gaussian math=precise robust=on bvh=refit refit-limit=1.3 keys=0 "
+              "rotation=slerp skin=linear influences=0 displacement=true dice=2 rays=16 bounces=2 "
+              "split=1 ray-limit=1000 light-samples=0 texture-filter=anisotropic derivatives=on "
+              "weak-lights=0.00024 opacity-threshold=0 shadows=auto depth=half");
     EXPECT_EQ(find_quality("best"), nullptr);
 }
 
