@@ -139,6 +139,10 @@ uint32_t Accel::body(uint32_t row) const {
     return state_->map.rows[row].body;
 }
 
+void Accel::bounds(vec3& low, vec3& high) const {
+    state_->top.bounds(low, high);
+}
+
 const AccelPolicy& Accel::policy() const {
     return state_->policy;
 }

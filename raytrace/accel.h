@@ -148,6 +148,9 @@ class Accel {
     void surface_points(size_t count, const uint32_t* instance, const uint32_t* primitive,
                         const float* u, const float* v, const SurfacePoints& out) const;
 
+    // A box about all that is traced since the last update; low above high where nothing is.
+    void bounds(vec3& low, vec3& high) const;
+
     // Geometry::body of a row, its own number where it has none.
     uint32_t body(uint32_t row) const;
 

@@ -309,6 +309,13 @@ void EmbreeScene::commit() {
     rtcCommitScene(scene(scene_));
 }
 
+void EmbreeScene::bounds(vec3& low, vec3& high) const {
+    RTCBounds box;
+    rtcGetSceneBounds(scene(scene_), &box);
+    low = {box.lower_x, box.lower_y, box.lower_z};
+    high = {box.upper_x, box.upper_y, box.upper_z};
+}
+
 uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bool fixed_winner,
                                   HitPacket16& hits) const {
     LaneMask lanes(rays.active);

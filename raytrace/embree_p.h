@@ -88,6 +88,8 @@ class EmbreeScene {
     void attach(const EmbreeInstance& instance, uint32_t slot);
     void detach(uint32_t slot);
     void commit();
+    // Of all that is attached, since the last commit; low above high where nothing is.
+    void bounds(vec3& low, vec3& high) const;
 
     // The rays must be well-formed. Fill hits (geometry = kNone for misses), give the lanes' bits.
     uint32_t intersect16(const RayPacket16& rays, const HitMap& map, bool fixed_winner,

@@ -48,6 +48,7 @@ std::string why_unlit(const Scene& scene, const LightBindings& bindings, uint32_
         return bindings.directed(light) ? "its shader asks for other categories"
                                         : "its shader does not ask for ambient light";
     const LightReach reach = bindings.reach(scene, light);
+    if (reach.black) return "it is black";
     if (!reach.bounded()) return "";
     for (const Surface& surface : scene.surfaces) {
         Sphere sphere;
@@ -82,6 +83,10 @@ void explain_lights(const Scene& scene, ExplainedRows& rows) {
         const LightSource& source = scene.lights[l];
         const std::string subject = light_name(scene, source);
         const auto statements = bindings.statements(l);
+        if (bindings.reach(scene, l).black) {
+            rows.leave_out(subject, "not run", "it is black at this time");
+            continue;
+        }
         if (!bindings.directed(l)) {
             rows.add(subject, "ambient: added at each point", "");
             rows.leave_out(subject, "no shadow rays", "ambient light has no direction");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "runtime/lights/kernels.h"
@@ -23,15 +24,20 @@ Sphere sphere_about(const float* const P[3], size_t count) {
         low[k] = least;
         high[k] = most;
     }
-    return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+    return {0.5 * (low + high), 0.5 * glm::length(high - low), 0.5 * (high - low)};
 }
 
 // The angle between the axis and the sphere's middle, less that under which the apex sees the
 // sphere's radius.
 bool reaches(const LightReach& light, const Sphere& sphere) {
+    if (light.black) return false;
     const dvec3 way = sphere.center - light.apex;
     const double distance = glm::length(way);
-    const double radius = sphere.radius + kMargin * (distance + glm::length(light.apex));
+    const double margin = kMargin * (distance + glm::length(light.apex));
+    // A cone of less than a half space may look away from a box that is around its apex's height.
+    const double ahead = glm::dot(way, light.axis) + glm::dot(glm::abs(light.axis), sphere.half);
+    if (light.half_angle < kPi / 2 && ahead < -margin) return false;
+    const double radius = sphere.radius + margin;
     if (!(distance > radius)) return true;
     if (distance - radius > light.range) return false;
     const double half = light.half_angle + std::asin(radius / distance) + kMargin;

@@ -13,7 +13,8 @@ struct LightReach {
     dvec3 apex{0.0}, axis{0.0, 0.0, 1.0};  // axis of length 1, from the light
     double half_angle = kPi;               // radians; kPi: all around
     double range = std::numeric_limits<double>::infinity();
-    bool bounded() const { return half_angle < kPi || range < kEndless; }
+    bool black = false;  // none is sent now
+    bool bounded() const { return black || half_angle < kPi || range < kEndless; }
 
     static constexpr double kEndless = std::numeric_limits<double>::infinity();
 };
@@ -21,12 +22,13 @@ struct LightReach {
 struct Sphere {
     dvec3 center{0.0};
     double radius = 0;
+    dvec3 half{LightReach::kEndless};  // of a box about its points, with the same center
 };
 
-// About the box of these points.
+// About the box of these points, and that box.
 Sphere sphere_about(const float* const P[3], size_t count);
 
-// Whether light may arrive anywhere in the sphere; true in doubt.
+// Whether light may arrive anywhere in the sphere and its box; true in doubt.
 bool reaches(const LightReach& light, const Sphere& sphere);
 
 }  // namespace kinora

@@ -134,11 +134,33 @@ constexpr BoundedShader kBounded[] = {
     {"gltf_point", "", 0, "range"},
 };
 
+// Shaders of the library whose light is lightcolor times intensity, times what falls off.
+constexpr std::string_view kColored[] = {"collada_ambient", "collada_directional", "collada_point",
+                                         "collada_spot",    "gltf_point",          "gltf_spot"};
+
+// Whether a light of the library sends nothing at the scene's present time: its color or its
+// intensity is 0.
+bool is_black(const Scene& scene, const ShaderInstance& look) {
+    const std::string& name = look.shader().name;
+    if (std::ranges::find(kColored, name) == std::end(kColored) ||
+        &look.shader() != library_shader(name).get())
+        return false;
+    bool black = false;
+    for (const ParamSource& source : look.layers[0].params) {
+        const bool color = source.name == "lightcolor";
+        if ((!color && source.name != "intensity") || !source.value.present()) continue;
+        const double* value = &scene.values[source.value.offset];
+        black |= std::all_of(value, value + (color ? 3 : 1), [](double x) { return x == 0; });
+    }
+    return black;
+}
+
 }  // namespace
 
 LightReach LightBindings::reach(const Scene& scene, size_t light) const {
     const ShaderInstance& look = *scene.shader_instances[scene.lights[light].look];
     LightReach reach;
+    reach.black = is_black(scene, look);
     if (look.area_light) return reach;  // its light does not come from its node
     for (const BoundedShader& row : kBounded) {
         if (look.shader().name != row.name || &look.shader() != library_shader(row.name).get())

@@ -107,10 +107,32 @@ size_t LightRecords::samples_of(size_t light, const LightOutputs& statement) con
     return statement.spread >= 0 ? light_samples(frame_.scene, light) : 1;
 }
 
-void LightRecords::begin_frame() {
+void LightRecords::begin_frame(bool all) {
+    all_ = all;
     area_lights_.begin_frame();
     reaches_.resize(frame_.scene.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l) reaches_[l] = bindings_.reach(frame_.scene, l);
+    find_absent();
+}
+
+// By the box of the whole scene, so that it is the same for all grids.
+void LightRecords::find_absent() {
+    absent_.assign(reaches_.size(), 0);
+    Sphere scene;
+    const bool bounded =
+        std::ranges::any_of(reaches_, [](const LightReach& reach) { return reach.bounded(); });
+    if (bounded) {
+        vec3 low, high;
+        frame_.scene.accel.bounds(low, high);
+        const dmat3 current(frame_.camera_from_accel);
+        const dvec3 half = 0.5 * (dvec3(high) - dvec3(low));
+        scene.center = current * (0.5 * (dvec3(high) + dvec3(low)) - dvec3(frame_.eye));
+        scene.radius = glm::length(half);
+        for (int k = 0; k < 3; ++k)
+            scene.half[k] = glm::dot(glm::abs(glm::transpose(current)[k]), half);
+    }
+    for (size_t l = 0; l < absent_.size(); ++l)
+        absent_[l] = reaches_[l].bounded() && !reaches(reaches_[l], scene);
 }
 
 std::vector<size_t> LightRecords::light_of_records() const {
@@ -188,16 +210,19 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
     Making making{grid, at, arena.allocate_span<jit::Record>(record_count_),
                   arena.allocate_span<SentLight>(record_count_)};
     const Sphere lit = sphere_about(at.P, at.count);
+    // At other points, and within volumes, handles and light_of_records count all lights.
+    const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
     for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
+        const bool seen = bindings_.binding(grid.look->index, l).seen;
+        if (leaves_out && (absent_[l] || !seen)) continue;
         const uint32_t only = frame_.insight.only_light;
-        if ((only != kNone && l != only) || !bindings_.binding(grid.look->index, l).seen ||
-            !reaches(reaches_[l], lit))
+        if ((only != kNone && l != only) || !seen || !reaches(reaches_[l], lit))
             dark_records(making, l);
         else
             area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
     }
     shadow(making);
-    return {int32_t(record_count_), making.records.data()};
+    return {int32_t(making.record_count), making.records.data()};
 }
 
 void LightRecords::dark_records(Making& making, size_t l) const {

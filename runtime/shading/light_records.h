@@ -19,7 +19,8 @@ class LightShadows {
 class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
-    void begin_frame();
+    // `all`: records of lights that reach no surface are made too, as light_of_records has them.
+    void begin_frame(bool all);
     // Names the lights that shine only against where they look.
     void report_aims(Diagnostics& diagnostics) const;
 
@@ -43,6 +44,7 @@ class LightRecords {
         size_t record_count = 0, sent_count = 0;
     };
     jit::RecordSet make_records(Grid& grid, LightPoints at);
+    void find_absent();
     static std::span<PointRays> accounts(const Making& making);
     // Run a light's kernel.
     void plain_records(Making& making, size_t light);
@@ -69,7 +71,9 @@ class LightRecords {
     LightBindings bindings_;
     AreaLights area_lights_;
     std::vector<LightReach> reaches_;  // of each light, in this frame
-    size_t record_count_ = 0;          // of one run
+    std::vector<uint8_t> absent_;      // of each light: it reaches no surface in this frame
+    bool all_ = false;
+    size_t record_count_ = 0;  // of one run
     bool need_rng_ = false;
 };
 

@@ -141,8 +141,8 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
         return shoots_rays(*frame.scene.shader_instances[light.look]);
     });
     update_looks(frame.scene, frame.stop);
-    objects_->lights.begin_frame();
     set_view(frame);
+    objects_->lights.begin_frame(all_inputs);
     set_media(frame);
 }
 

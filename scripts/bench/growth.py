@@ -132,7 +132,7 @@ def plot(rows, file):
     width, height, left, top, decades_x, decades_y = 420, 260, 50, 14, 4, 4
     y0 = min(0.001, min(sum(ms) for _, ms in rows))
     def at(nodes, ms):
-        x = left + math.log10(nodes) / decades_x * (width - left - 12)
+        x = left + math.log10(nodes) / decades_x * (width - left - 30)
         return x, top + (1 - (math.log10(ms) - math.log10(y0)) / decades_y) * (height - top - 36)
     def line(points, style):
         text = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
@@ -145,7 +145,7 @@ def plot(rows, file):
                      f'<text x="{x:.1f}" y="{height - 22}" text-anchor="middle">{10 ** d:,}</text>')
     for d in range(decades_y + 1):
         y = at(1, y0 * 10 ** d)[1]
-        parts.append(f'<line x1="{left}" x2="{width - 12}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
+        parts.append(f'<line x1="{left}" x2="{width - 30}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>'
                      f'<text x="{left - 5}" y="{y + 4:.1f}" text-anchor="end">{y0 * 10 ** d:.3g}</text>')
     parts.append(line([at(n, sum(ms)) for n, ms in rows], 'stroke="#c33" stroke-width="2"'))
     parts += [f'<circle cx="{at(n, sum(ms))[0]:.1f}" cy="{at(n, sum(ms))[1]:.1f}" r="3" fill="#c33"/>' for n, ms in rows]

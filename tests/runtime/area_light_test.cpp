@@ -345,13 +345,17 @@ TEST(Solar, AnAngleGivesShadowsAPenumbraOfItsWidth) {
     const double half_angle = 0.05, reach = kSheet * std::tan(half_angle);  // 0.55 of [-1, 1]
     Rendering r = sunlit("light s() { solar(vector \"world\" (0, 0, -1), 0.05) Cl = 1; }", 1024);
     EXPECT_EQ(r.findings(), "");
-    r.frame(32, 4);
+    r.frame(32, 32);
     int partly = 0;
     for (int x = 0; x < 32; ++x) {
-        const double at = r.place(x, 2).x, share = double(r.color(x, 2).x);
+        const double at = r.place(x, 16).x, share = double(r.color(x, 16).x);
         EXPECT_NEAR(share, seen_share(at, half_angle), 0.01) << at;
-        if (at < -reach) EXPECT_EQ(share, 0) << at;
-        if (at > reach) EXPECT_NEAR(share, 1, 1e-4) << at;
+        if (at < -reach) {
+            EXPECT_EQ(share, 0) << at;
+        }
+        if (at > reach) {
+            EXPECT_NEAR(share, 1, 1e-4) << at;
+        }
         partly += share > 0 && share < 0.9999;
     }
     EXPECT_GE(partly, 16);  // of 17.6 pixels

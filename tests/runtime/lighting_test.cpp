@@ -71,6 +71,23 @@ TEST(Lights, ASpotLightsUpTheInsideOfItsConeOnly) {
     EXPECT_GT(lit, 100);
 }
 
+// Lights are left out by where things are in the frame, not where they were in the first one.
+TEST(Lights, ASpotLightsWhatComesIntoItsCone) {
+    SceneText scene;
+    scene.look("matte", kMatte)
+        .square("sheet", 1)
+        .place("sheet", "matte", "<translate sid=\"t\">0 0 0</translate>", "sheet-node")
+        .light("spot", "<spot><color>1 1 1</color><falloff_angle>60</falloff_angle></spot>",
+               "<translate>0 0 2</translate>");
+    scene.animate("sheet-node/t.Z", {0, 1}, {4, 0});
+    Rendering r(scene.text());
+    for (double time : {0.0, 1.0, 0.0, 1.0}) {
+        r.frame(31, 31, time);
+        EXPECT_NEAR(r.color(15, 15).x, time, 1e-6) << r.findings();
+        EXPECT_EQ(r.stats.light_points > 0, time > 0);
+    }
+}
+
 TEST(Lights, AmbientLightReachesEveryPointEvenly) {
     SceneText scene = floor_scene("surface s() { Oi = 1; Ci = ambient(); }");
     scene.light("sky", "<ambient><color>0.1 0.2 0.3</color></ambient>").light("sun", kSun);

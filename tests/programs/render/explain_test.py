@@ -164,8 +164,8 @@ class Explain(ProgramTest):
         self.assertEqual(left_out(lamp_shader(own)), ["its shader asks for them itself"])
 
     def test_lights_that_are_not_placed(self):
-        rows = self.explained(self.written(LIT, lamp()), "--lights", "scene")
-        self.assertEqual([r["modelled"] for r in self.row(rows, "lights", "1 lights: never run")], [False])
+        rows = self.explained(self.written(LIT, lamp(), FAR), "--lights", "default")
+        self.assertEqual([r["modelled"] for r in self.row(rows, "lights", "never run")], [False], rows["lights"])
         placed = self.explained(self.written(LIT, lamp(), FAR), "--lights", "scene")
         self.assertEqual(self.row(placed, "lights", "never run"), [])
 
@@ -212,12 +212,13 @@ class Explain(ProgramTest):
                                               (40).to_bytes(4, "little") + (2).to_bytes(4, "little") * 2 +
                                               (1).to_bytes(2, "little") + (24).to_bytes(2, "little") + bytes(24) +
                                               bytes([0, 0, 255] * 2 + [0, 0]) * 2)
+        shown = ("-o", self.folder / "a.png", "--size", "8x8")  # textures are read where they are seen
         for name, module in (("red.png", False), ("red.bmp", True)):
             look = rsl(f'surface s() {{ Oi = 1; Ci = texture("{name}", s, t); }}')
-            rows = self.explained(self.written(look))
+            rows = self.explained(self.written(look), *shown)
             self.assertTrue(self.row(rows, "textures", f"{name}: read: 2 x 2")[0]["modelled"], rows["textures"])
             self.assertEqual(self.row(rows, "textures", "OpenImageIO: not loaded") == [], module)
-        missing = self.explained(self.written(rsl('surface s() { Oi = 1; Ci = texture("none.png", s, t); }')))
+        missing = self.explained(self.written(rsl('surface s() { Oi = 1; Ci = texture("none.png", s, t); }')), *shown)
         self.assertFalse(self.row(missing, "textures", "checks are shown")[0]["modelled"])
 
     def test_channels_that_do_not_reach_the_picture(self):

@@ -46,6 +46,24 @@ TEST(LightReach, IsNeverTooShortAndSeldomTooLong) {
     EXPECT_GT(told, 0.97 * unlit);
 }
 
+// A floor around the foot of a lamp that looks up, of which a sphere holds more.
+TEST(LightReach, ALampThatLooksAwayFromABoxDoesNotReachIt) {
+    const float x[] = {-9, 9, 9}, y[] = {-9, -9, 9}, z[] = {0, 0, 0.5f};
+    const float* P[] = {x, y, z};
+    const Sphere floor = sphere_about(P, 3);
+    LightReach light{.apex = dvec3(0, 0, 1), .half_angle = 1.5};
+    EXPECT_FALSE(reaches(light, floor));
+    EXPECT_TRUE(reaches(light, {floor.center, floor.radius}));
+    light.apex.z = 0.45;
+    EXPECT_TRUE(reaches(light, floor));
+    light.apex.z = 1, light.half_angle = 1.6;  // it sends light below itself too
+    EXPECT_TRUE(reaches(light, floor));
+    light.half_angle = 1.5, light.axis = {0, 0, -1};
+    EXPECT_TRUE(reaches(light, floor));
+    light.black = true;
+    EXPECT_FALSE(reaches(light, floor));
+}
+
 TEST(LightReach, IsBoundedByAConeOrARange) {
     LightReach light;
     EXPECT_FALSE(light.bounded());
