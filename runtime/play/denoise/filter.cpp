@@ -13,7 +13,6 @@ namespace kinora {
 namespace {
 
 constexpr float kUnseen = 1e-7f;  // variance of linear light that no eye finds
-constexpr size_t kRowsOfTask = 8;
 
 // Calls see(index of its first pixel) for each stretch of kFilterRun pixels.
 template <class See>

@@ -18,7 +18,6 @@ namespace {
 constexpr float kSamePlane = 0.05f;  // share of the depth
 constexpr float kSameWay = 0.8f;     // cosine between normals
 constexpr float kMostCount = 64;
-constexpr size_t kRowsOfTask = 8;
 
 float brightness(const Planes& planes, size_t at) {
     return 0.2126f * planes.c[0][at] + 0.7152f * planes.c[1][at] + 0.0722f * planes.c[2][at];

@@ -13,7 +13,6 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kRowsOfTask = 8;
 
 size_t whole_runs(int pixels) {
     return (size_t(pixels) + kFilterRun - 1) / kFilterRun * kFilterRun;

@@ -10,6 +10,8 @@
 
 namespace kinora {
 
+inline constexpr size_t kRowsOfTask = 8;  // of a picture, that one thread takes at a time
+
 // Rows have a border on each side, and so has the picture above and below, so that a filter may
 // read what lies a few pixels away of every pixel. The border is on a surface of its own.
 struct Planes {
