@@ -249,7 +249,9 @@ TEST_P(EachKernel, KeepsTheRowsOfTheLanes) {
             ASSERT_EQ(kept[0][next], first + lane) << lanes;
             ASSERT_EQ(kept[1][next++], 1000 + first + lane) << lanes;
         }
-        if (at > 0) ASSERT_EQ(kept[1][at - 1], 7u);
+        if (at > 0) {
+            ASSERT_EQ(kept[1][at - 1], 7u);
+        }
         ASSERT_EQ(kept[1][at + 16], 7u);
     }
 }
@@ -319,16 +321,16 @@ TEST_P(EachKernel, SeesLightOnlyWhereItSurelyDoes) {
         const uint32_t bits = kernels().sees_light(from, rows, normals, kCosine);
         for (size_t i = 0; i < kPoints; ++i) {
             const Real weight[] = {1 - Real(at.u[i]) - Real(at.v[i]), at.u[i], at.v[i]};
-            Real N[3] = {}, facet = 0, light = 0, cosine = 0, square = 0;
+            Real mixed[3] = {}, facet = 0, light = 0, cosine = 0, square = 0;
             for (int k = 0; k < 3; ++k) {
                 Real length = 0;
                 for (int c = 0; c < 3; ++c) length += Real(at.corner[k][i][c]) * at.corner[k][i][c];
                 for (int c = 0; c < 3; ++c)
-                    N[c] += weight[k] * at.corner[k][i][c] / std::sqrt(length);
+                    mixed[c] += weight[k] * at.corner[k][i][c] / std::sqrt(length);
             }
             for (int c = 0; c < 3; ++c) {
-                facet += N[c] * from.Ng[c][i];
-                light += N[c] * from.way[c][i];
+                facet += mixed[c] * from.Ng[c][i];
+                light += mixed[c] * from.way[c][i];
                 cosine += Real(from.Ng[c][i]) * from.way[c][i];
                 square += Real(from.way[c][i]) * from.way[c][i];
             }

@@ -11,6 +11,7 @@
 #include <limits>
 #include <random>
 
+#include "raytrace/points/points.h"
 #include "runtime/base/math.h"
 #include "runtime/description/affine_map.h"
 
