@@ -1,9 +1,9 @@
 // rsl/builtins/string.cpp: strings and printing.
 #include <fmt/format.h>
+#include <regex.h>
 
 #include <bit>
 #include <locale>
-#include <regex>
 #include <sstream>
 
 #include "rsl/builtins/table.h"
@@ -228,10 +228,18 @@ void concat(RefCall<Real>& c) {
     c.set(Dual<Real>(Real(intern(all))));
 }
 
+// By the C library, whose code is none of ours. A pattern it refuses matches nothing.
+bool posix_match(const std::string& pattern, const std::string& text) {
+    regex_t compiled;
+    if (regcomp(&compiled, pattern.c_str(), REG_EXTENDED | REG_NOSUB) != 0) return false;
+    const bool found = regexec(&compiled, text.c_str(), 0, nullptr, 0) == 0;
+    regfree(&compiled);
+    return found;
+}
+
 template <class Real>
 void match(RefCall<Real>& c) {
-    bool found = std::regex_search(c.text(1), std::regex(c.text(0), std::regex::extended));
-    c.set(Dual<Real>(Real(found)));
+    c.set(Dual<Real>(Real(posix_match(c.text(0), c.text(1)))));
 }
 
 template <class Real>
