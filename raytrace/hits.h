@@ -24,9 +24,9 @@ inline void set_triple(float* const columns[3], size_t i, vec3 value) {
     columns[2][i] = value.z;
 }
 
-// A hit's random number (docs/decisions.md#random-numbers-without-state).
-inline uint32_t random_of(const raytrace::HitBatch& hits, size_t h) {
-    uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]);
+// A hit's random number in a frame (docs/decisions.md#random-numbers-without-state).
+inline uint32_t random_of(const raytrace::HitBatch& hits, size_t h, uint32_t frame_seed) {
+    uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]) ^ raytrace::hash(frame_seed);
     uint32_t layer = hits.layer[h] % 64 + 64 * hits.depth + (hits.layer[h] / 64 << 16);
     return raytrace::hash(pixel, hits.sample[h], layer);
 }

@@ -84,8 +84,8 @@ struct ColumnKernels {
     // kilometres or micrometres.
     void (*extents)(const TripleRows& dPdu, const TripleRows& dPdv, const TripleRows& dPdx,
                     const TripleRows& dPdy, TwoRows& extents);
-    // The hits' random numbers (docs/decisions.md#random-numbers-without-state).
-    void (*random)(const HitNumbers& hits, uint32_t depth, uint32_t* to);
+    // The hits' random numbers in a frame (docs/decisions.md#random-numbers-without-state).
+    void (*random)(const HitNumbers& hits, uint32_t depth, uint32_t frame_seed, uint32_t* to);
 };
 KINORA_KERNEL_TABLES(ColumnKernels, Columns);
 

@@ -64,8 +64,8 @@ void find_kinds(const ThreeRows (&n)[3], const ThreeRows& mixed, uint32_t* kinds
         for (int k = 0; k < 3; ++k) {
             const float x = n[k][0][i], y = n[k][1][i], z = n[k][2][i];
             unit &= uint32_t(__builtin_fabsf(x * x + y * y + z * z - 1) < kNearUnit);
-            same &= uint32_t(x == n[0][0][i]) & uint32_t(y == n[0][1][i]) &
-                    uint32_t(z == n[0][2][i]);
+            same &=
+                uint32_t(x == n[0][0][i]) & uint32_t(y == n[0][1][i]) & uint32_t(z == n[0][2][i]);
         }
         const float x = mixed[0][i], y = mixed[1][i], z = mixed[2][i];
         unit &= uint32_t(x * x + y * y + z * z > kLeastMixed);
@@ -73,8 +73,7 @@ void find_kinds(const ThreeRows (&n)[3], const ThreeRows& mixed, uint32_t* kinds
     }
 }
 
-uint32_t mix_normals(const float* M, const CornerNormals& at, float* const to[3],
-                     uint32_t* kinds) {
+uint32_t mix_normals(const float* M, const CornerNormals& at, float* const to[3], uint32_t* kinds) {
     alignas(64) ThreeRows n[3], mixed, turned;
     for (int k = 0; k < 3; ++k)
         for (size_t i = 0; i < kAll; i += 4) corners_to_rows(at.corner[k] + i, i, n[k]);
@@ -193,11 +192,12 @@ void extents(const TripleRows& dPdu, const TripleRows& dPdv, const TripleRows& d
 }
 
 // As random_of() of raytrace/hits.h.
-void random(const HitNumbers& hits, uint32_t depth, uint32_t* to) {
+void random(const HitNumbers& hits, uint32_t depth, uint32_t frame_seed, uint32_t* to) {
     const HitNumbers h = hits;  // copies, which no store below can change
+    const uint32_t frame = raytrace::hash(frame_seed);
 #pragma GCC ivdep
     for (size_t i = 0; i < kAll; ++i) {
-        const uint32_t pixel = raytrace::hash(h.pixel_x[i], h.pixel_y[i]);
+        const uint32_t pixel = raytrace::hash(h.pixel_x[i], h.pixel_y[i]) ^ frame;
         const uint32_t layer = h.layer[i] % 64 + 64 * depth + (h.layer[i] / 64 << 16);
         to[i] = raytrace::hash(pixel, h.sample[i], layer);
     }

@@ -176,7 +176,7 @@ class HitSource : public PointSource {
             uint32_t room[4][kColumnPoints], numbers[kColumnPoints];
             kernels_.random({points.at(hits_.pixel_x, room[0]), points.at(hits_.pixel_y, room[1]),
                              points.at(hits_.sample, room[2]), points.at(hits_.layer, room[3])},
-                            hits_.depth, numbers);
+                            hits_.depth, grid_.frame.seed, numbers);
             std::memcpy(to + first, numbers, points.count() * sizeof(float));
         }
     }

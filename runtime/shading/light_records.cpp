@@ -460,8 +460,9 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
         }
         // Each step of a march has numbers of its own.
         uint32_t h = grid.points[std::min(size_t(call.first) + i, grid.count() - 1)];
-        rows[12][i] = jit::float_of(int32_t(raytrace::hash(
-            random_of(grid.hits, h), raytrace::hash(bits(P.x), bits(P.y), bits(P.z)))));
+        rows[12][i] =
+            jit::float_of(int32_t(raytrace::hash(random_of(grid.hits, h, frame_.seed),
+                                                 raytrace::hash(bits(P.x), bits(P.y), bits(P.z)))));
     }
     at.rng = rows[12];
     std::span<uint32_t> surface = arena.allocate_span<uint32_t>(jit::kMaxLanes);

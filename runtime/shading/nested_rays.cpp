@@ -224,7 +224,7 @@ constexpr uint32_t kWaySalt = 0x3c6ef372u;
 float number_of_choice(const raytrace::HitBatch& hits, uint32_t hit, uint32_t frame_seed) {
     if (hits.depth > 0)
         return float(raytrace::unit_interval(
-            raytrace::hash(random_of(hits, hit), frame_seed, kWaySalt) & ~0xffu));
+            raytrace::hash(random_of(hits, hit, frame_seed), frame_seed, kWaySalt) & ~0xffu));
     uint32_t pixel = raytrace::hash(hits.pixel_x[hit], hits.pixel_y[hit], hits.layer[hit]);
     uint32_t seed = raytrace::hash(pixel, frame_seed, kWaySalt);
     return std::min(float(raytrace::stratified_sample(hits.sample[hit], seed).x), 0x1.fffffep-1f);

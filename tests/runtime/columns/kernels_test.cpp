@@ -179,13 +179,14 @@ TEST_P(EachColumnKernel, KnowsWhatNormalsSayOfTheSurface) {
 TEST_P(EachColumnKernel, HashesAsTheDefinitionSays) {
     std::mt19937 engine(11);
     for (uint32_t depth : {0u, 1u, 7u}) {
+        const uint32_t seed = 1000 * depth;
         uint32_t x[kColumnPoints], y[kColumnPoints], sample[kColumnPoints], layer[kColumnPoints];
         uint32_t found[kColumnPoints];
         for (size_t i = 0; i < kColumnPoints; ++i) {
             x[i] = engine() % 4096, y[i] = engine() % 4096;
             sample[i] = uint32_t(engine()), layer[i] = engine() % 256;
         }
-        kernels().random({x, y, sample, layer}, depth, found);
+        kernels().random({x, y, sample, layer}, depth, seed, found);
         auto mixed = [](uint32_t n) {
             n = (n ^ n >> 16) * 0x7feb352du;
             n = (n ^ n >> 15) * 0x846ca68bu;
@@ -195,7 +196,8 @@ TEST_P(EachColumnKernel, HashesAsTheDefinitionSays) {
         for (size_t i = 0; i < kColumnPoints; ++i) {
             const uint32_t low = layer[i] & 63, high = layer[i] >> 6;
             const uint32_t passed = low + 64 * depth + 65536 * high;
-            EXPECT_EQ(found[i], both(both(both(x[i], y[i]), sample[i]), passed)) << depth;
+            EXPECT_EQ(found[i], both(both(both(x[i], y[i]) ^ mixed(seed), sample[i]), passed))
+                << depth;
         }
     }
 }
