@@ -70,7 +70,6 @@ bool trace_film(Scene& scene, const FrameSettings& settings, raytrace::Film& fil
     if (integrator.background) *integrator.background /= gain;  // it is no part of the scene
     bool whole = raytrace::integrate(scene.accel, scene.view, *scene.shading, film, integrator,
                                      scene.scratch, counters, progress);
-    if (settings.insight.first) settings.insight.first->finish();
     StageScope stage(Stage::Film);
     if (gain != 1)
         for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);

@@ -297,7 +297,6 @@ const EnvironmentTable* GatherRays::table_of(int32_t map) {
 }
 
 int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
-    grid.note_rays();
     Lanes lanes(call);
     int any = std::countr_zero(call.mask);
     const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Row::Request, any))];

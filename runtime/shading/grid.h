@@ -55,7 +55,7 @@ struct Grid {
     bool dense = false;      // hits one behind the other
     bool ascending = false;  // their numbers grow
     uint32_t depth = 0;
-    std::span<float*> columns;              // by Column
+    std::span<float*> columns;  // by Column
     // Of each point: raytrace::kUnitNormals, kOneNormal or 0, which is always right. With N only.
     std::span<uint32_t> normals;
     std::span<jit::RecordSet> record_sets;  // [0]: lights at P
@@ -67,9 +67,10 @@ struct Grid {
     RayTag ray;
     // Of each point that may, calls that shot rays which shade what they meet.
     std::span<uint16_t> calls;
-    // Of each point, or none where no kernel shoots rays; a light's are those of the points it lights.
+    // Of each point, or none where no kernel shoots rays; a light's are those of the points it
+    // lights.
     std::span<PointRays> rays;
-    bool goes_on = false;       // the rays that see the points may go on behind them
+    bool goes_on = false;               // the rays that see the points may go on behind them
     RayCollector* collector = nullptr;  // of rays that wait for those of other points
     // Whose parameters surface() and displacement() show a light: of the surface it lights; null
     // in lights and volumes: each point's own surface.
@@ -79,15 +80,11 @@ struct Grid {
 
     size_t count() const { return points.size(); }
 
-    // Something is drawn at random for its points, or rays that shade what they meet are shot
-    // (FirstHits). A light's are those of the surface it lights.
+    // Something is drawn at random for its points (FirstHits). A light's are those of the surface
+    // it lights.
     void note_random() const {
         const Grid& seen = lit ? *lit : *this;
         if (frame.insight.first) frame.insight.first->note_random(seen.look->index, seen.depth);
-    }
-    void note_rays() const {
-        const Grid& seen = lit ? *lit : *this;
-        if (frame.insight.first) frame.insight.first->note_rays(seen.look->index, seen.depth);
     }
 };
 

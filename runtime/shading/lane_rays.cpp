@@ -422,7 +422,6 @@ void note_samples(RayCollector& collector, PlannedSamples& planned, SeenByRay* s
 
 void see_samples(Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan, const RayTag& tag,
                  NestedRays& nested, const AddSamples& add, const SumSamples& sum) {
-    grid.note_rays();
     RayCollector* collector = grid.collector;
     PlannedSamples planned(lanes, plan);
     if (collector && collector->collecting())

@@ -138,8 +138,7 @@ void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemo
 }
 
 void Transmission::pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which,
-                                const RayTag& from, ThreadMemory& memory,
-                                std::span<vec3> through) {
+                                const RayTag& from, ThreadMemory& memory, std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
     raytrace::occluded(frame_.scene.accel, rays, which, raytrace::kMaskOpaque, blocked,
                        memory.counters.trace);
@@ -261,7 +260,8 @@ void pick(std::span<const raytrace::KeptColumn> columns, std::span<const uint32_
     for (const raytrace::KeptColumn& column : columns) {
         const auto* from = static_cast<const uint32_t*>(column.from);
         auto* to = static_cast<uint32_t*>(column.to) + first;
-        for (size_t j = 0; j < points.size(); ++j) std::memcpy(to + j, from + points[j], sizeof(*to));
+        for (size_t j = 0; j < points.size(); ++j)
+            std::memcpy(to + j, from + points[j], sizeof(*to));
     }
 }
 

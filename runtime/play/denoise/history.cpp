@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 
 #include "runtime/base/parallel.h"
@@ -19,8 +20,8 @@ constexpr float kSamePlane = 0.05f;  // share of the depth
 constexpr float kSameWay = 0.8f;     // cosine between normals
 constexpr float kMostCount = 64;
 
-float brightness(const Planes& planes, size_t at) {
-    return 0.2126f * planes.c[0][at] + 0.7152f * planes.c[1][at] + 0.0722f * planes.c[2][at];
+float brightness(float r, float g, float b) {
+    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
 }
 
 // The place on a triangle between three vertices.
@@ -42,8 +43,8 @@ vec3 History::place_before(const Scene& scene, const FirstHits& hits, size_t hit
     std::span<const vec4> vertices = geometry.positions;
     if (!instanced && vertices_of_[row] && vertices_of_[row]->size() == vertices.size())
         vertices = *vertices_of_[row];
-    const vec3 place = mixed(vertices, geometry.triangles, hits.primitive[hit], hits.u[hit],
-                             hits.v[hit]);
+    const vec3 place =
+        mixed(vertices, geometry.triangles, hits.primitive[hit], hits.u[hit], hits.v[hit]);
     return instanced ? vec3(dvec3(accel_from_local_[row] * dvec4(dvec3(place), 1.0))) : place;
 }
 
@@ -89,10 +90,38 @@ std::optional<History::Seen> History::find(vec3 P, vec3 N, uint32_t surface) con
     return sum;
 }
 
-void History::blend_pixel(const std::optional<Seen>& before, size_t at, Planes& planes) {
-    const float bright = brightness(planes, at);
+// What mirrors show, and shadows, does not move with the surface: a color from before lies within
+// what the surface shows about the pixel now, as temporal anti-aliasing has it (Salvi 2016,
+// variance clipping).
+void History::clip(Seen& before, size_t at, const Planes& planes) const {
+    constexpr float kDeviations = 1.0f;
+    float sum[4] = {}, squares[4] = {}, count = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+            const size_t near = size_t(ptrdiff_t(at) + dy * ptrdiff_t(planes.stride) + dx);
+            if (planes.surface[near] != planes.surface[at]) continue;
+            for (int k = 0; k < 4; ++k) {
+                sum[k] += fresh_[k][near];
+                squares[k] += fresh_[k][near] * fresh_[k][near];
+            }
+            count += 1;
+        }
+    for (int k = 0; k < 4; ++k) {
+        const float mean = sum[k] / count;
+        const float about =
+            kDeviations * std::sqrt(std::max(squares[k] / count - mean * mean, 0.0f));
+        before.c[k] = std::clamp(before.c[k], mean - about, mean + about);
+    }
+    const float spread = before.second - before.first * before.first;
+    before.first = brightness(before.c[0], before.c[1], before.c[2]);
+    before.second = spread + before.first * before.first;
+}
+
+void History::blend_pixel(std::optional<Seen> before, size_t at, Planes& planes) {
+    const float bright = brightness(planes.c[0][at], planes.c[1][at], planes.c[2][at]);
     float count = 1, first = bright, second = bright * bright;
     if (before && before->count >= 1) {
+        clip(*before, at, planes);
         count = std::min(before->count + 1, kMostCount);
         const float share = std::max(1 / count, kNewest);
         for (int k = 0; k < 4; ++k)
@@ -105,27 +134,32 @@ void History::blend_pixel(const std::optional<Seen>& before, size_t at, Planes& 
     moments_.second[at] = second;
 }
 
-// Variance of the brightness of the pixels of its surface around one, before they are mixed.
+// Variance of the brightness of the pixels of its surface around one, before they are mixed: the
+// least of four squares it is the corner of, since one of them does not cross the edge of a shadow.
 float History::spread_around(const Planes& planes, int x, int y) const {
-    constexpr int kFar = 2;
-    float sum = 0, squares = 0, count = 0;
+    constexpr float kLeastOfFour = 1.6f;  // what the least of four estimates is short of their mean
     const uint32_t surface = planes.surface[planes.at(x, y)];
-    for (int dy = -kFar; dy <= kFar; ++dy)
-        for (int dx = -kFar; dx <= kFar; ++dx) {
-            const size_t at = planes.at(x + dx, y + dy);
-            if (planes.surface[at] != surface) continue;
-            const float first = moments_.first[at], second = moments_.second[at];
-            sum += first;
-            squares += second;
-            count += 1;
-        }
-    const float mean = sum / count;
-    return std::max(squares / count - mean * mean, 0.0f);
+    float least = std::numeric_limits<float>::infinity();
+    for (int way = 0; way < 4; ++way) {
+        float sum = 0, squares = 0, count = 0;
+        for (int dy = 0; dy <= 2; ++dy)
+            for (int dx = 0; dx <= 2; ++dx) {
+                const size_t at = planes.at(x + (way & 1 ? dx : -dx), y + (way & 2 ? dy : -dy));
+                if (planes.surface[at] != surface) continue;
+                sum += moments_.first[at];
+                squares += moments_.second[at];
+                count += 1;
+            }
+        const float mean = sum / count;
+        if (count > 3) least = std::min(least, std::max(squares / count - mean * mean, 0.0f));
+    }
+    return std::isfinite(least) ? kLeastOfFour * least : 0;
 }
 
 void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
     for (auto* plane : {&moments_.first, &moments_.second, &moments_.count})
         plane->resize(planes.surface.size());
+    for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
     const bool known = known_ && accel_from_local_.size() == scene.geometry.size();
     parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
@@ -148,9 +182,9 @@ void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
                 const size_t at = planes.at(x, int(y));
                 if (!(planes.variance[at] > 0)) continue;
                 const float count = moments_.count[at], first = moments_.first[at];
-                const float spread = count < kFew
-                                         ? spread_around(planes, x, int(y))
-                                         : std::max(moments_.second[at] - first * first, 0.0f);
+                float spread = spread_around(planes, x, int(y));
+                if (count >= kFew)
+                    spread = std::min(spread, std::max(moments_.second[at] - first * first, 0.0f));
                 // Of the mixture: of so many samples of equal share, or of ever smaller ones.
                 const float of_mixture = std::max(1 / count, kNewest / (2 - kNewest));
                 planes.variance[at] = std::max(spread * of_mixture, 1e-12f);

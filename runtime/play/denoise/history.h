@@ -34,12 +34,14 @@ class History {
     };
     vec3 place_before(const Scene& scene, const FirstHits& hits, size_t hit) const;
     std::optional<Seen> find(vec3 P, vec3 N, uint32_t surface) const;
-    void blend_pixel(const std::optional<Seen>& before, size_t at, Planes& planes);
+    void clip(Seen& before, size_t at, const Planes& planes) const;
+    void blend_pixel(std::optional<Seen> before, size_t at, Planes& planes);
     float spread_around(const Planes& planes, int x, int y) const;
     void keep_places(const Scene& scene);
 
     bool known_ = false;
     Planes before_;
+    std::vector<float> fresh_[4];  // colors before they are mixed
     Moments moments_, moments_before_;
     raytrace::Camera camera_;
     // Of each row of Scene::geometry: the matrix of instanced ones, the vertices of deforming ones.

@@ -24,8 +24,6 @@ bool FirstHits::any_noise() const {
 
 void FirstHits::start(int picture_width, int picture_height, size_t shader_instances) {
     noisy.assign(shader_instances, 0);
-    sees_others_.assign(shader_instances, 0);
-    nested_ = 0;
     width = picture_width;
     height = picture_height;
     if (!places) return;
@@ -34,10 +32,6 @@ void FirstHits::start(int picture_width, int picture_height, size_t shader_insta
     for (auto* plane : {&u, &v}) plane->resize(pixels);
     for (auto* plane : {&P, &Ng}) plane->resize(pixels);
     primitive.resize(pixels);
-}
-
-void FirstHits::finish() {
-    for (size_t k = 0; nested_ && k < noisy.size(); ++k) noisy[k] |= sees_others_[k];
 }
 
 void FirstHits::take(const raytrace::HitBatch& hits) {
@@ -55,11 +49,7 @@ void FirstHits::take(const raytrace::HitBatch& hits) {
 }
 
 void FirstHits::note_random(size_t shader_instance, uint32_t depth) {
-    mark(depth == 0 ? noisy[shader_instance] : nested_);
-}
-
-void FirstHits::note_rays(size_t shader_instance, uint32_t depth) {
-    if (depth == 0) mark(sees_others_[shader_instance]);
+    if (depth == 0) mark(noisy[shader_instance]);
 }
 
 }  // namespace kinora

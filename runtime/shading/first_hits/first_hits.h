@@ -21,23 +21,18 @@ class FirstHits {
     std::vector<float> u, v;
     std::vector<vec3> P, Ng;  // accel space
     // By the number of a shader instance: 1 where a ray of its points, or the sample of a light for
-    // them, was drawn at random.
+    // them, was drawn at random. What a mirror sees of these is sharp, and moves as no surface does:
+    // better noisy than smeared, so it does not count.
     std::vector<uint8_t> noisy;
 
     bool any_noise() const;
 
-    // Before a picture; after it. What sees others by rays is noisy where one of these is.
+    // Before a picture.
     void start(int picture_width, int picture_height, size_t shader_instances);
-    void finish();
 
     // While it is made, by any thread. `depth`: 0 for points that the camera sees.
     void take(const raytrace::HitBatch& hits);
     void note_random(size_t shader_instance, uint32_t depth);
-    void note_rays(size_t shader_instance, uint32_t depth);  // that shade what they meet
-
-  private:
-    std::vector<uint8_t> sees_others_;  // as `noisy`
-    uint8_t nested_ = 0;                // something that rays have met is noisy
 };
 
 }  // namespace kinora
