@@ -25,7 +25,6 @@ hide knot
 loop pingpong
 tone filmic
 tone plain
-panel editor
 """
 
 
