@@ -62,12 +62,14 @@ void Reference<Real>::declare(const Symbol& symbol) {
     note(symbol);
 }
 
-// A float as an index: truncated, clamped (docs/numerics.md#indices).
+// A float as an index: truncated, clamped (docs/numerics.md#indices). Where numbers near the end of
+// the floats lead to it, one precision has infinity or NaN and the other a number.
 template <class Real>
 size_t Reference<Real>::index(const Expr& e, size_t length) {
     Real x = expr(e).c[0].x;
     Real last = Real(length - 1);
     if (!(x > -1 && x < last + 1)) ++result.faults;
+    if (std::abs(x) > Real(1e30)) no_promise();
     return size_t(decide(int(x > 0 ? std::min(x, last) : Real(0))));
 }
 

@@ -3,6 +3,9 @@
 //
 //   skip/class   a leaf of which a quarter shows: with opacity(), against the same in surface()
 //   skip/1.x     a 1.x surface with LowerOptions::skip_transparent, against without
+//   members      a pattern that displacement() keeps in a member for opacity() and surface(),
+//   against
+//                methods that each compute it from the point before it is moved
 //   co-shaders   a material of five co-shaders against the same as one shader by hand; `ms` is
 //                source to code of the five
 // `ratio` is the first side's time divided by the second's.
@@ -31,6 +34,21 @@ const std::string kLeafLast = kPattern +
                               "color c = pattern(P); Oi = cut(P); Ci = Oi * c; } }";
 const std::string kLeaf1 =
     kPattern + "surface leaf() { color c = pattern(P); Oi = cut(P); Ci = Oi * c; }";
+
+const std::string kMember =
+    kPattern +
+    "class crust() { color m_pattern = 0; public void displacement(output point P; output normal "
+    "N) {\n"
+    "m_pattern = pattern(P); P += 0.01 * m_pattern[0] * normalize(N); }\n"
+    "public void opacity(output color Oi) { Oi = step(0.2, m_pattern[1]); }\n"
+    "public void surface(output color Ci, Oi) { Ci = Oi * m_pattern; } }";
+// By a place of its own each time, as shaders without members have to.
+const std::string kNoMember =
+    kPattern +
+    "class crust() { point m_at = 0; public void displacement(output point P; output normal N) {\n"
+    "m_at = P; P += 0.01 * comp(pattern(P), 0) * normalize(N); }\n"
+    "public void opacity(output color Oi) { Oi = step(0.2, comp(pattern(m_at + 0 * P), 1)); }\n"
+    "public void surface(output color Ci, Oi) { Ci = Oi * pattern(m_at - 0 * P); } }";
 
 struct Part {
     const char *handle, *text;
@@ -138,8 +156,13 @@ void skip_1x(benchmark::State& state) {
     against(state, *kernels_of(kLeaf1, true), *kernels_of(kLeaf1, false));
 }
 
+void members(benchmark::State& state) {
+    against(state, *kernels_of(kMember, false), *kernels_of(kNoMember, false));
+}
+
 BENCHMARK(skip_class)->Name("skip/class");
 BENCHMARK(skip_1x)->Name("skip/1.x");
+BENCHMARK(members)->Name("members");
 BENCHMARK(co_shaders)->Name("co-shaders");
 
 }  // namespace
