@@ -33,8 +33,8 @@ Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding);
 
 // Writes by the extension, .png (encoding as given) or .exr (RGBA of that depth, linear,
 // associated; ZIP; the film's planes as float channels): to a temporary name beside it, fsync,
-// rename. Makes missing directories. Returns an error text
-// ("No space left on device"), or "" when done; errno_out (if given) gets the system's number.
+// rename. Makes missing directories. Returns an error text ("No space left on device"), or "" when
+// done; errno_out (if given) gets the system's number.
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
                         const ImageTexts& texts, int* errno_out = nullptr,
                         PictureDepth depth = PictureDepth::Half);

@@ -223,7 +223,10 @@ class Seeds(ProgramTest):
 
     def test_the_material_shines_by_its_own_samples(self):
         rows = self.shot("material", self.class_scene("seed_material")[0], spp=2)
-        shown = lambda x, y: sum(v for row in rows[y - 6:y + 7] for v in row[x - 6:x + 7]) / 169
+
+        def shown(x, y):
+            return sum(v for row in rows[y - 6:y + 7] for v in row[x - 6:x + 7]) / 169
+
         self.assertGreater(shown(70, 70), shown(115, 70) + 20)  # lit from the upper left
         dae, code = self.class_scene("seed_material")
         dae.parts["effects"] = [e.replace("+ spec_col + indir_spec", "+ 0 * indir_spec")

@@ -159,8 +159,9 @@ float History::spread_around(const Planes& planes, int x, int y) const {
 void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
     for (auto* plane : {&moments_.first, &moments_.second, &moments_.count})
         plane->resize(planes.surface.size());
-    for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
     const bool known = known_ && accel_from_local_.size() == scene.geometry.size();
+    if (known)
+        for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
     parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y)
             for (int x = 0; x < planes.width; ++x) {

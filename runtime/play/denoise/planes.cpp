@@ -13,7 +13,6 @@ namespace kinora {
 
 namespace {
 
-
 size_t whole_runs(int pixels) {
     return (size_t(pixels) + kFilterRun - 1) / kFilterRun * kFilterRun;
 }
