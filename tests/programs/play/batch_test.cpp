@@ -19,8 +19,9 @@ SDL_Event event(uint32_t type, int what = 0) {
     return made;
 }
 
-// m: the mouse moves; D, U: its left button; R, r: its right one; K, k: a key down and up; J: another
-// one down. The turns that they fall into when they are all there at once, parted by '|'.
+// m: the mouse moves; D, U: its left button; R, r: its right one; K, k: a key down and up; J, j:
+// another one, Ctrl say. The turns that they fall into when they are all there at once, parted by
+// '|'.
 std::string turns(const std::string& events) {
     std::string out;
     bool pressed = false;
@@ -36,6 +37,7 @@ std::string turns(const std::string& events) {
                                   : c == 'r' ? event(SDL_MOUSEBUTTONUP, 3)
                                   : c == 'K' ? event(SDL_KEYDOWN, 4)
                                   : c == 'J' ? event(SDL_KEYDOWN, 5)
+                                  : c == 'j' ? event(SDL_KEYUP, 5)
                                              : event(SDL_KEYUP, 4);
             if (!batch.takes(one)) {
                 EXPECT_GT(at, first) << "a turn that takes nothing";
@@ -64,7 +66,8 @@ TEST(Batch, ADragKeepsItsLastStep) {
 
 TEST(Batch, KeysKeepTheirOrder) {
     EXPECT_EQ(turns("Kk"), "K|k");
-    EXPECT_EQ(turns("KJk"), "K|Jk");
+    EXPECT_EQ(turns("KJk"), "K|J|k");
+    EXPECT_EQ(turns("JKjk"), "J|K|jk") << "Ctrl is still down in the turn that sees V";
     EXPECT_EQ(turns("mKm"), "mKm");
 }
 

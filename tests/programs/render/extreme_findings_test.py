@@ -4,7 +4,7 @@ import re
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str("/work/kinora/tests/programs"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from programs import ProgramTest, main, render
 from written_scenes import (CAMERA, EYE, WHITE, animation, animations, camera, controllers, document, geometries, mesh,
                             one_joint_skin, place, rsl, square)

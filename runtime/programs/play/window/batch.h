@@ -25,10 +25,10 @@ class Batch {
             }
             case SDL_KEYDOWN:
                 if (key_) return false;
-                key_ = event.key.keysym.scancode;
+                key_ = true;
                 return true;
             case SDL_KEYUP:
-                return event.key.keysym.scancode != key_;
+                return !key_;  // of Ctrl too: Ctrl+V is no V
             case SDL_MOUSEMOTION:
                 if (buttons_) return false;  // a press is where it was
                 dragged_ = pressed_;
@@ -40,9 +40,8 @@ class Batch {
 
   private:
     const bool pressed_;
-    bool dragged_ = false;
+    bool dragged_ = false, key_ = false;
     unsigned buttons_ = 0;
-    int key_ = 0;
 };
 
 }  // namespace kinora::play
