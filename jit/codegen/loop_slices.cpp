@@ -74,6 +74,9 @@ class Slicer {
 
 std::vector<int32_t> loop_slices(const Module& module, const Function& function,
                                  const Structure& structure, const FunctionPlan& plan) {
+    const bool loops = std::any_of(function.insts.begin(), function.insts.end(),
+                                   [](const Inst& inst) { return inst.op == Op::Loop; });
+    if (!loops) return std::vector<int32_t>(function.insts.size(), 0);
     return Slicer(module, function, structure, plan).run();
 }
 

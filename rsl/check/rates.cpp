@@ -38,18 +38,15 @@ struct Active {
     Flow control;  // that some call of it stands under
 };
 
-using Rated = std::unordered_set<const Expr*>;
-
 // Hostile source may ask for more walking than it is worth: then what is known is taken.
 constexpr int kMostSteps = 2'000'000;
 
 class RateWalk {
   public:
-    RateWalk(const ShaderDefinition& shader, Ast& ast, Reporter& reporter, Rated& rated)
+    RateWalk(const ShaderDefinition& shader, Ast& ast, Reporter& reporter)
         : shader_(shader),
           ast_(ast),
           reporter_(reporter),
-          rated_(rated),
           flows_(ast.symbol_count),
           known_(ast.symbol_count),
           lengths_(ast.symbol_count),
@@ -145,8 +142,8 @@ class RateWalk {
     }
     Flow rated(Expr& e, Flow f) {
         Rate rate = f.varying ? Rate::Varying : f.constant ? Rate::Constant : Rate::Uniform;
-        bool first = rated_.insert(&e).second;
-        e.rate = first ? rate : std::max(e.rate, rate);
+        e.rate = e.rated ? std::max(e.rate, rate) : rate;
+        e.rated = true;
         return f;
     }
     Flow flow_all(std::span<Expr*> items) {
@@ -459,7 +456,6 @@ class RateWalk {
     const ShaderDefinition& shader_;
     Ast& ast_;
     Reporter& reporter_;
-    Rated& rated_;             // expressions with a rate, of all shaders so far
     std::vector<Flow> flows_;  // by Symbol::id
     std::vector<bool> known_;  // by Symbol::id: locals that were met
     VaryingLengths lengths_;
@@ -481,9 +477,8 @@ class RateWalk {
 }  // namespace
 
 void infer_rates(Ast& ast, Reporter& reporter) {
-    Rated rated;
     for (const ShaderDefinition* shader : ast.shaders)
-        RateWalk(*shader, ast, reporter, rated).run();
+        RateWalk(*shader, ast, reporter).run();
 }
 
 }  // namespace kinora::rsl

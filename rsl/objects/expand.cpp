@@ -194,18 +194,23 @@ void ObjectExpander::place_names(const Unit& unit) {
 
 namespace {
 
-// Whether something of RSL 2.0 is in the source, so that there is something to do.
-bool has_objects(const Ast& ast) {
+// Whether a token is a word or a mark of RSL 2.0. Most tokens of a 1.x shader are told by a letter.
+bool is_of_objects(const Token& token) {
     constexpr std::string_view kWords[] = {"shader",    "getshader", "getshaders", "getvar",
                                            "hasmethod", "null",      "readprimvar"};
+    if (token.punct == Punct::Arrow) return true;
+    if (token.kind != TokenKind::Identifier || token.text.size() < 4) return false;
+    return std::string_view("sghnr").find(token.text[0]) != std::string_view::npos &&
+           std::find(std::begin(kWords), std::end(kWords), token.text) != std::end(kWords);
+}
+
+// Whether something of RSL 2.0 is in the source, so that there is something to do.
+bool has_objects(const Ast& ast) {
     const auto& tokens = ast.tokens.tokens;
     return !ast.structs.empty() ||
            std::any_of(ast.shaders.begin(), ast.shaders.end(),
                        [](const ShaderDefinition* s) { return s->shader_class || s->co_shader; }) ||
-           std::any_of(tokens.begin(), tokens.end(), [&](const Token& token) {
-               return token.punct == Punct::Arrow || std::find(std::begin(kWords), std::end(kWords),
-                                                               token.text) != std::end(kWords);
-           });
+           std::any_of(tokens.begin(), tokens.end(), is_of_objects);
 }
 
 bool report_cycle(const Ast& ast, Reporter& reporter, const std::vector<Unit>& units,

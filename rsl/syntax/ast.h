@@ -108,6 +108,7 @@ const char* op_text(Op op);  // "+", "<=", "." ...
 struct Expr {
     ExprKind kind;
     Rate rate = Rate::Varying;         // checker
+    bool rated = false;                // checker: a shader that uses it set its rate
     Type type{BaseType::Invalid, -1};  // checker
     SourceSpan span;
 };

@@ -119,10 +119,10 @@ void Preprocessor::emit(Token token) {
 
 // "x = 1; # as it was": some shaders have remarks of this kind.
 bool Preprocessor::begins_remark(const Token& token) {
-    bool behind_statement = !out_.tokens.empty() && (out_.tokens.back().punct == Punct::Semicolon ||
-                                                     out_.tokens.back().punct == Punct::RightBrace);
     bool hash = token.punct == Punct::Hash && !token.line_start && token.macro == 0;
-    if (!hash || !behind_statement || files_.skipping()) return false;
+    if (!hash || out_.tokens.empty() || files_.skipping()) return false;
+    Punct last = out_.tokens.back().punct;
+    if (last != Punct::Semicolon && last != Punct::RightBrace) return false;
     reporter_.report(Code::RSL_HASH_REMARK, token);
     return true;
 }

@@ -26,6 +26,24 @@ constexpr TradeMetric kMetrics[] = {
 };
 #undef ERROR_OF
 
+// Whether a setting kept the bits of its base's pictures though its knob trades them: this scene has
+// nothing that it loses, such as shadows. What it saves here is no reason to choose it for others.
+bool is_lucky(const TradeRow& row) {
+    return row.same_picture && row.variant.knob && row.variant.knob->error != "none";
+}
+
+// Whether a row owes its time to such a setting, alone or with others.
+bool is_lucky(const TradeRow& row, const std::vector<TradeRow>& rows) {
+    if (row.variant.kind == VariantKind::Preset) return false;
+    const Quality& base = rows[row.variant.base].variant.quality;
+    return std::any_of(rows.begin(), rows.end(), [&](const TradeRow& other) {
+        if (!is_lucky(other)) return false;
+        const auto get = other.variant.knob->get;
+        const double setting = get(other.variant.quality);
+        return get(row.variant.quality) == setting && get(base) != setting;
+    });
+}
+
 // Few times have an interval that holds less than it should.
 bool is_sure(const MedianInterval& interval) {
     return interval.cover >= kSureCover;
@@ -77,7 +95,8 @@ void mark_front(TradeResults& results) {
         if (!row.measured()) continue;
         rows.push_back(&row);
         points.push_back({row.times.ms.median, row.errors.picture.flip});
-        if (is_sure(row.times.ms)) slowest.push_back({row.times.ms.high, row.errors.picture.flip});
+        if (is_sure(row.times.ms) && !is_lucky(row, results.rows))
+            slowest.push_back({row.times.ms.high, row.errors.picture.flip});
     }
     const double floor = results.floor.picture.flip;
     std::vector<bool> front = pareto_front(points, floor);

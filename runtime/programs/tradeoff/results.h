@@ -91,7 +91,8 @@ inline constexpr double kSureCover = 0.95;
 
 // Fills on_front and off_front: time against FLIP. The former by medians; the latter by what the
 // intervals are sure of, from this one's lower end to the upper ends of others. It is 0 for a row
-// whose interval holds less than kSureCover, and such rows are compared with none.
+// whose interval holds less than kSureCover, and such rows are compared with none. Nor are rows with
+// a setting that keeps the base's picture here though its knob trades pictures: chance of a scene.
 void mark_front(TradeResults& results);
 
 std::string frames_text(const TradeResults& results);  // "24 (fastest), 1 (first)"

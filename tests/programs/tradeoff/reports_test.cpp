@@ -62,6 +62,29 @@ TEST(Reports, CallNothingSlowWithoutSureIntervals) {
     EXPECT_EQ(results.rows[4].off_front, 0);  // 2.7 ms of its own interval are its only rival
 }
 
+// Shadows that a scene does not have cost time all the same: no preset is slow for keeping them. A
+// knob that trades time for time is another matter.
+TEST(Reports, CallNoPresetSlowByTheLuckOfAScene) {
+    for (const auto& [option, setting, off] :
+         {std::tuple{"shadows", 2.0, 0.0}, std::tuple{"bvh", 1.0, 1.8 / 1.1 - 1}}) {
+        TradeResults results = small_results();
+        ASSERT_EQ(results.rows[1].variant.kind, VariantKind::Preset);
+        TradeRow& preset = results.rows[1];
+        for (const auto kind : {VariantKind::Knob, VariantKind::Combination}) {
+            TradeRow fast = preset;
+            fast.variant.kind = kind;
+            fast.variant.base = 1;
+            fast.variant.knob = kind == VariantKind::Knob ? find_knob(option) : nullptr;
+            fast.same_picture = kind == VariantKind::Knob;
+            find_knob(option)->set(fast.variant.quality, setting);
+            fast.times.ms = {1, 0.9, 1.1, 0.97};
+            results.rows.push_back(fast);
+        }
+        mark_front(results);
+        EXPECT_NEAR(results.rows[1].off_front, off, 1e-12) << option;
+    }
+}
+
 TEST(Reports, HideWhatTheNoiseHides) {
     TradeResults results = small_results();
     const TradeMetric &flip = *find_trade_metric("flip"), &psnr = *find_trade_metric("psnr");
