@@ -5,6 +5,7 @@
 
 #include "runtime/play/core_p.h"
 #include "runtime/play/pixel_insight.h"
+#include "runtime/play/session/places.h"
 
 namespace kinora {
 
@@ -118,8 +119,11 @@ CommandResult action_hide(PlayerCore& core, const Arguments& a) {
     CommandResult result;
     const NodeInfo* node = find_node_info(core, wanted, result);
     if (!node) return result;
+    const std::string id = node->path.substr(node->path.rfind('/') + 1);
+    if (id == number_name(uint32_t(node - core.info->nodes.data())))
+        return refused("the file gives this node neither an id nor a name to be hidden by");
     SceneEdits edits = core.edits;
-    edits.hidden.push_back(node->path.substr(node->path.rfind('/') + 1));
+    edits.hidden.push_back(id);
     core.change_scene(std::move(edits));
     return {};
 }

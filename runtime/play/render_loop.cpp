@@ -97,6 +97,7 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
     {
         std::lock_guard lock(mutex_);
         scene_ = std::move(scene);
+        if (scene_->replaces_camera) begins_ = true;
         swaps_.clear();
         next_ = Pass::Quick;
         stop_ = 1;
@@ -205,6 +206,7 @@ void RenderLoop::run() {
             in_work_ = *step;
             work_began_.restart();
         }
+        if (renders && std::exchange(begins_, false)) memory_->pacer.begin();
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {

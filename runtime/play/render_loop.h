@@ -105,6 +105,7 @@ class RenderLoop {
     std::vector<FindingText> findings_;
     std::deque<StageTimes> times_;
     Pass next_ = Pass::Done;
+    bool begins_ = false;  // another scene: its first picture is to come soon
     bool display_changed_ = false, working_ = false, quit_ = false;
     std::optional<Step> in_work_;
     Stopwatch work_began_;

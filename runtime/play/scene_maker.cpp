@@ -194,7 +194,7 @@ void SceneMaker::begin(ShownScene& shown) const {
     shown.rate = base_->rate;
     shown.exit_code = kExitShader;
     shown.diagnostics->judge(request_.findings.judgement());
-    shown.diagnostics->files = texts_;
+    shown.diagnostics->files = texts_.fork();  // edited texts go when their scene does
 }
 
 // A broken text is that of all materials that wear its effect, and so is what it becomes.
