@@ -84,6 +84,7 @@ CommandResult action_select_material(PlayerCore& core, const Arguments& a) {
 }
 
 CommandResult action_deselect(PlayerCore& core, const Arguments&) {
+    if (core.cancel_open()) return refused("the scene is not opened");
     core.state.selection = {};
     return {};
 }

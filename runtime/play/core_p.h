@@ -24,6 +24,12 @@ struct PlayerCore {
     SceneRequest request;
     SceneEdits edits;
     std::vector<SceneEdits> undo, redo;
+    // Of the scene that is shown while another one is read; none: none is.
+    struct Changes {
+        SceneEdits edits;
+        std::vector<SceneEdits> undo, redo;
+    };
+    std::optional<Changes> changes_before;
     std::shared_ptr<const SceneInfo> info;
     ShaderDocument document;
     std::vector<FindingText> scene_findings, frame_findings, all_findings;
@@ -87,6 +93,8 @@ struct PlayerCore {
     void rebuild() { maker.edit(edits); }
     // Another scene from now on, as soon as it is read; with what a session says of it.
     void open(const SceneRequest& scene, std::optional<Session> with);
+    bool cancel_open();      // the scene that is being read is not wanted any more; false: none is
+    void keep_scene();       // another one could not be opened
     CommandResult act(size_t row, const std::vector<std::string>& arguments);
 
   private:

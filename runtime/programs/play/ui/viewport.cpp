@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/play/display.h"
+#include "runtime/play/scene_maker.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {
@@ -27,6 +28,16 @@ std::string number(double value) {
 void shadowed_text(ImDrawList* list, ImVec2 at, ImU32 color, const std::string& text) {
     list->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
     list->AddText(at, color, text.c_str());
+}
+
+// "" where no other scene is on its way.
+std::string opening_text(const Player& player) {
+    const Opening opening = player.opening();
+    if (opening.step == Opening::Step::None)
+        return player.load_state() == LoadState::Loading ? "Reading the scene" : "";
+    const char* what =
+        opening.step == Opening::Step::Reads ? "Reading the scene" : "Building the scene";
+    return fmt::format("{}, {:.0f} s. Esc leaves it", what, opening.seconds);
 }
 
 }  // namespace
@@ -236,7 +247,7 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
             text =
                 "Welcome. Drop a scene here (.dae .zae .kmz .gltf .glb), or press Ctrl+P and say "
                 "open.";
-        if (load == LoadState::Loading) text = "Reading the scene";
+        if (load == LoadState::Loading) text = opening_text(context.player);
         if (load == LoadState::Ready) text = "Making the first picture";
         if (load == LoadState::Failed)
             text = "The scene could not be opened. The findings say why.";
@@ -247,9 +258,9 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
                             {at.x + extent.x + margin, at.y + extent.y + theme.px(7)},
                             IM_COL32(0, 0, 0, 150), theme.px(5));
         list->AddText(at, load == LoadState::Failed ? theme.error : theme.text, text.c_str());
-    } else if (load == LoadState::Loading) {
+    } else if (const std::string text = opening_text(context.player); !text.empty()) {
         shadowed_text(list, {corner.x + margin, corner.y + size.y - line - margin}, theme.accent,
-                      "Reading the scene");
+                      text);
     }
     if (!picture_ || !context.open("hud")) return;
     const auto times = context.player.stage_times();
