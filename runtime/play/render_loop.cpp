@@ -206,7 +206,10 @@ void RenderLoop::run() {
             in_work_ = *step;
             work_began_.restart();
         }
-        if (renders && std::exchange(begins_, false)) memory_->pacer.begin();
+        if (renders && std::exchange(begins_, false)) {
+            memory_->pacer.begin();
+            step->first = true;
+        }
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {
@@ -499,7 +502,7 @@ bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings,
 
 // The refined picture never is, nor those that no clock hurries.
 bool RenderLoop::is_filtered(const Step& step) const {
-    return real_time_ && step.order.filter && step.samples < step.whole_samples;
+    return real_time_ && step.order.filter && !step.first && step.samples < step.whole_samples;
 }
 
 // The guide, the picture's own size, and what is displayed.
@@ -514,7 +517,7 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     bool small = film->width != to.width || film->height != to.height;
     if (shows_guide(step.display.aov))
         make_guide(scene, to.width, to.height, to.guide);
-    else if (small && 2 * film->width >= to.width)
+    else if (small && (2 * film->width >= to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
     else if (small)  // a quarter of the rays says where the edges are
         make_guide(scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);

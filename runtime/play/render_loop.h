@@ -58,6 +58,7 @@ class RenderLoop {
         std::shared_ptr<ShownScene> scene;
         std::optional<Question> question;
         bool display_only = false;
+        bool first = false;  // of another scene
         double scale = 1;
         int samples = 1;
         int whole_samples = 1;

@@ -143,6 +143,9 @@ class WindowLoop {
             case SDL_KEYDOWN:
                 press(event.key);
                 break;
+            case SDL_TEXTINPUT:
+                ui_->typed(event.text.text);
+                break;
             default:
                 break;
         }
