@@ -203,13 +203,11 @@ void RenderLoop::run() {
         bool renders = !step->question && !step->display_only;
         if (renders) {
             ++frames_;
+            step->first = begins_;
             in_work_ = *step;
             work_began_.restart();
         }
-        if (renders && std::exchange(begins_, false)) {
-            memory_->pacer.begin();
-            step->first = true;
-        }
+        if (renders && begins_) memory_->pacer.begin();
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {
@@ -228,6 +226,7 @@ void RenderLoop::run() {
         } else {
             outcome = make(*step);
             lock.lock();
+            if (outcome.whole && step->scene == scene_) begins_ = false;
             finish(*step, outcome);
         }
         in_work_.reset();
@@ -239,10 +238,11 @@ void RenderLoop::run() {
 }
 
 // With the lock. Does something wait for the end of the quick frame in work? Time that goes by
-// never ends a frame.
+// never ends a frame, and no move a scene's first one.
 bool RenderLoop::is_overtaken() const {
     if (!in_work_ || !real_time_ || stop_) return false;
     if (!questions_.empty() && !questions_.front().posed) return true;
+    if (in_work_->first) return false;
     ViewOrder then = in_work_->order;
     then.frame = order_.frame;
     return !then.same_picture(order_);

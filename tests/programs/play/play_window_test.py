@@ -372,7 +372,7 @@ class WindowTest(unittest.TestCase):
         """Every frame is endless, or one of many rays. Each press changes the screen though fewer frames end meanwhile: a loop
         that waited for the frame would answer once a frame. The times are printed and judge nothing: the processors may be busy."""
         script = ("select_material bright", "edit", "play on",
-                  'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0; while (1) k += u; Ci = k; Oi = 1; }"')
+                  'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0, j; while (1) for (j = 0; j > -1; j += 1) k += u; Ci = k; Oi = 1; }"')
         for scene, words, lines in ((MATTE, (), script), (SCENES / "rays.dae", ("--quality", "final"), ())):
             with self.subTest(scene.name):
                 window = self.open(scene, "--script", "-", *words, stdin=subprocess.PIPE)
@@ -381,9 +381,9 @@ class WindowTest(unittest.TestCase):
                 window.process.stdin.flush()
                 if lines:
                     window.recorded(self.record, "^set_text ")
-                before = self.frames_ended(window, "before.json")
+                before = self.frames_ended(window, scene.stem + "_before.json")
                 times = self.answers(window, (400, 200, 700, 400))
-                ended = self.frames_ended(window, "after.json") - before
+                ended = self.frames_ended(window, scene.stem + "_after.json") - before
                 print(f"{scene.name}: {times[0]:.0f} ms at best, {times[len(times) // 2]:.0f} in the median; {len(ended)} frames ended")
                 self.assertLess(len(ended), self.PRESSES)
                 self.words(window)
