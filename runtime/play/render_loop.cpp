@@ -61,7 +61,8 @@ struct RenderLoop::Memory {
     uint32_t only_light = kNone;
     bool noisy = true;  // as far as is known
     void follow(const Step& step);
-    std::optional<ViewOrder> dices_for;  // what the redicer was started for; none: a smaller picture
+    std::optional<ViewOrder>
+        dices_for;  // what the redicer was started for; none: a smaller picture
 };
 
 // Pictures of anything else say nothing about the next one.
@@ -370,9 +371,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     FrameStats stats;
     double filter = 0;
     try {
-        outcome.whole = step.pass == Pass::Refined
-                            ? render_refined(step, settings, *to, stats)
-                            : render_quick(step, settings, *to, stats);
+        outcome.whole = step.pass == Pass::Refined ? render_refined(step, settings, *to, stats)
+                                                   : render_quick(step, settings, *to, stats);
     } catch (const std::bad_alloc&) {
         std::lock_guard lock(mutex_);
         findings_.push_back(plain_finding("MEMORY", "there is not enough memory for the picture"));
@@ -393,9 +393,9 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         if (filters) {
             StageTimer timer(filter);
             const bool known = memory_->first.places;
-            memory_->noisy = known ? memory_->denoiser.filter(*step.scene->scene, memory_->first,
-                                                              to->film)
-                                   : memory_->first.any_noise();
+            memory_->noisy =
+                known ? memory_->denoiser.filter(*step.scene->scene, memory_->first, to->film)
+                      : memory_->first.any_noise();
         }
         Stopwatch present;
         to->scale = step.scale;
@@ -414,7 +414,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     // A frame that was ended early says nothing, unless it was late already.
     if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
         memory_->pacer.aim_at(target);
-        memory_->pacer.add(times.total, times.animate + times.skin + times.refit + times.present - filter);
+        memory_->pacer.add(times.total,
+                           times.animate + times.skin + times.refit + times.present - filter);
     }
     return outcome;
 }

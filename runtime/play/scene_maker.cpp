@@ -136,8 +136,7 @@ std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
     shown->edits = order.edits;
     shown->replaces_camera = order.replaces_camera;
     std::optional<AsRead> before;
-    if (order.open && order.replaces_camera && read_.scene)
-        before = std::exchange(read_, AsRead{});
+    if (order.open && order.replaces_camera && read_.scene) before = std::exchange(read_, AsRead{});
     make(order, *shown);
     if (!goes_on(Opening::Step::None)) shown.reset();
     const bool good = shown && (shown->scene || shown->swapped);
@@ -263,7 +262,8 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
     Stopwatch watch;
     ImportedScene imported = copy_without_geometry(*read_.scene);
     EditedShaders shaders = shaders_;
-    if (!apply_edits(imported, with_shared_texts(order.edits), read_.request, diagnostics, &shaders))
+    if (!apply_edits(imported, with_shared_texts(order.edits), read_.request, diagnostics,
+                     &shaders))
         return true;
     ShaderSwap swap;
     switch (swapper_->swap(imported.description, diagnostics, swap)) {
@@ -312,7 +312,8 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
         [&](const StoredImage& image) { shown.files.push_back(image.file); });
     shown.redicer = std::move(built.redicer);
     shown.settings = frame_settings(read_.request, *shown.scene, diagnostics);
-    auto info = scene_info(*shown.scene, {read_.scene->description, read_.texts}, read_.request, shown.rate);
+    auto info = scene_info(*shown.scene, {read_.scene->description, read_.texts}, read_.request,
+                           shown.rate);
     for (MaterialInfo& material : info->materials)
         for (const BrokenShader& broken : read_.broken)
             if (broken.material == material.id && !material.source)

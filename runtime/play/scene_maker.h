@@ -78,7 +78,7 @@ class SceneMaker {
     bool working_ = false, quit_ = false;
     bool replaces_camera_ = false;  // the order in work
 
-    bool cancelled_ = false;        // it is not wanted any more
+    bool cancelled_ = false;  // it is not wanted any more
     Opening::Step step_ = Opening::Step::None;
     Stopwatch began_;
 

@@ -251,14 +251,15 @@ class WindowTest(unittest.TestCase):
         window = self.open(MATTE)
         self.drawn(PICTURE)
 
-        def ticks():
-            fields = Path(f"/proc/{window.process.pid}/stat").read_text().rsplit(") ", 1)[1].split()
-            return int(fields[11]) + int(fields[12])
+        def wakes():
+            """How often any of its threads has left a processor."""
+            tasks = Path(f"/proc/{window.process.pid}/task").glob("*/status")
+            return sum(int(count) for task in tasks for count in re.findall(r"ctxt_switches:\s+(\d+)", task.read_text()))
 
         def rests():
-            before = ticks()
+            before = wakes()
             time.sleep(2)
-            return ticks() - before <= 2  # hundredths of a second
+            return wakes() == before
         self.eventually(rests, "it never comes to rest: the picture is refined, nothing changes", 90)
 
     def test_resized_and_closed_while_it_loads(self):

@@ -120,9 +120,9 @@ class Typist {
 };
 
 struct Longest {
-    double ms = 0;         // of the frames of shaders that end
-    double endless = 0;    // of those whose loops end by their budget
-    double at = -1;        // of the last frame that was looked at
+    double ms = 0;       // of the frames of shaders that end
+    double endless = 0;  // of those whose loops end by their budget
+    double at = -1;      // of the last frame that was looked at
     void look_at(Player& player, bool loops) {
         for (const StageTimes& times : player.stage_times()) {
             if (times.at <= at) continue;
@@ -188,10 +188,11 @@ TEST(Edits, AtRandomLeaveNothingBehind) {
         kernels[k] = jit::cache_stats().kernels;
     }
     const MakerCounts made = player.made();
-    std::printf("\nmemory %.3f, then %.3f MB; longest frame %.0f ms, of endless loops %.0f ms; "
-                "%d kernels, %d scenes\n",
-                double(used[0]) / 1e6, double(used[1]) / 1e6, longest.ms, longest.endless,
-                int(made.kernels), int(made.scenes));
+    std::printf(
+        "\nmemory %.3f, then %.3f MB; longest frame %.0f ms, of endless loops %.0f ms; "
+        "%d kernels, %d scenes\n",
+        double(used[0]) / 1e6, double(used[1]) / 1e6, longest.ms, longest.endless,
+        int(made.kernels), int(made.scenes));
     EXPECT_EQ(kernels[0], kernels[1]);
     constexpr size_t kMostOfAnEdit = 1500;  // bytes: less than a text
     EXPECT_LE(used[1], used[0] + kMostOfAnEdit * size_t(count));

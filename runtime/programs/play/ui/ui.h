@@ -58,7 +58,7 @@ class Ui {
     Theme theme_;
     Texture font_;
     Letters letters_;
-    bool typed_some_ = false;  // letters that the fonts do not have yet
+    bool typed_some_ = false;                          // letters that the fonts do not have yet
     uint64_t lettered_scene_ = 0, lettered_text_ = 0;  // looked through for letters
     std::string lettered_material_;
     size_t lettered_findings_ = 0;

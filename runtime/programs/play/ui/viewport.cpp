@@ -143,7 +143,8 @@ void Viewport::show_under_pointer(const Context& context) {
     const std::string& aov = context.state().picture.aov;
     if (aov.empty()) return;
     under_pointer_ += "   " + aov;
-    for (float value : shown_numbers(*picture_, aov, static_cast<double>(x), static_cast<double>(y)))
+    for (float value :
+         shown_numbers(*picture_, aov, static_cast<double>(x), static_cast<double>(y)))
         under_pointer_ += fmt::format(" {:.5g}", value);
 }
 
@@ -162,8 +163,9 @@ void Viewport::draw_scale(const Theme& theme, const NumberScale& scale) const {
         const vec3 c = scale.in_color ? false_color(share) : vec3(share);
         const auto shown = [](float v) { return std::pow(v, 1 / 2.2f); };
         const float x = corner.x + width * static_cast<float>(k) / kSteps;
-        list->AddRectFilled({x, corner.y}, {x + width / kSteps + 0.5f, corner.y + height},
-                            ImGui::ColorConvertFloat4ToU32({shown(c.x), shown(c.y), shown(c.z), 1}));
+        list->AddRectFilled(
+            {x, corner.y}, {x + width / kSteps + 0.5f, corner.y + height},
+            ImGui::ColorConvertFloat4ToU32({shown(c.x), shown(c.y), shown(c.z), 1}));
     }
     const std::string high = fmt::format("{:.4g}", scale.high);
     const float y = corner.y + height + theme.px(2);
@@ -203,8 +205,8 @@ bool Viewport::take_wipe(Context& context, bool hovered) {
     const PictureState& state = context.state().picture;
     if (state.wipe.empty() || !picture_) return wiping_ = false;
     const ImGuiIO& io = ImGui::GetIO();
-    const bool is_near = hovered && button_ < 0 &&
-                         std::abs(io.MousePos.x - wipe_x(state)) <= context.theme.px(5);
+    const bool is_near =
+        hovered && button_ < 0 && std::abs(io.MousePos.x - wipe_x(state)) <= context.theme.px(5);
     if (is_near && ImGui::IsMouseClicked(0)) wiping_ = true;
     if (is_near || wiping_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (!wiping_) return false;
@@ -269,8 +271,7 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
     const PictureState& state = context.state().picture;
     std::vector<std::pair<ImU32, std::string>> lines;
     lines.emplace_back(theme.text, fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total,
-                                               picture_->width, picture_->height,
-                                               picture_->samples,
+                                               picture_->width, picture_->height, picture_->samples,
                                                picture_->refined ? "   refined" : ""));
     if (picture_->scale < 1)
         lines.emplace_back(theme.accent,
