@@ -51,9 +51,19 @@ std::vector<uint32_t> find_line_starts(std::string_view text) {
 }  // namespace
 
 FileId SourceFiles::add(std::string name, std::string text) {
+    auto file = std::make_shared<File>();
+    file->name = std::move(name);
+    file->text = std::move(text);
     std::lock_guard lock(texts_->mutex);
-    texts_->files.push_back(std::make_unique<File>(File{std::move(name), std::move(text), {}}));
+    texts_->files.push_back(std::move(file));
     return FileId(texts_->files.size() - 1);
+}
+
+SourceFiles SourceFiles::fork() const {
+    SourceFiles other;
+    std::lock_guard lock(texts_->mutex);
+    other.texts_->files = texts_->files;
+    return other;
 }
 
 FileId SourceFiles::count() const {
@@ -61,7 +71,7 @@ FileId SourceFiles::count() const {
     return FileId(texts_->files.size());
 }
 
-const SourceFiles::File& SourceFiles::at(FileId file) const {
+SourceFiles::File& SourceFiles::at(FileId file) const {
     std::lock_guard lock(texts_->mutex);
     CHECK_LT(file, texts_->files.size());
     return *texts_->files[file];
@@ -75,12 +85,9 @@ std::string_view SourceFiles::text(FileId file) const {
 }
 
 LineColumn SourceFiles::line_column(FileId file, uint32_t offset) const {
-    const File& f = at(file);
-    {  // lines are looked for when the first finding of a file is printed: most files have none
-        std::lock_guard lock(texts_->mutex);
-        std::vector<uint32_t>& starts = texts_->files[file]->line_starts;
-        if (starts.empty()) starts = find_line_starts(f.text);
-    }
+    File& f = at(file);
+    // Lines are looked for when the first finding of a file is printed: most files have none.
+    std::call_once(f.lines_found, [&] { f.line_starts = find_line_starts(f.text); });
     auto after = std::upper_bound(f.line_starts.begin(), f.line_starts.end(), offset);
     uint32_t start = after[-1];
     return {int(after - f.line_starts.begin()), int(offset - start) + 1};

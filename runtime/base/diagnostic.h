@@ -76,6 +76,8 @@ struct LineColumn {
 // its copies, which share the texts.
 class SourceFiles {
   public:
+    // One that begins with these texts and ids; what is added to it is not added here.
+    SourceFiles fork() const;
     // Keeps a copy of `text`.
     FileId add(std::string name, std::string text);
     FileId count() const;  // ids are 0 .. count() - 1
@@ -88,13 +90,14 @@ class SourceFiles {
     struct File {
         std::string name;
         std::string text;
+        std::once_flag lines_found;
         std::vector<uint32_t> line_starts;
     };
     struct Texts {
         std::mutex mutex;
-        std::vector<std::unique_ptr<File>> files;
+        std::vector<std::shared_ptr<File>> files;
     };
-    const File& at(FileId file) const;
+    File& at(FileId file) const;
     std::shared_ptr<Texts> texts_ = std::make_shared<Texts>();
 };
 

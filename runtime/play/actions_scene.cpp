@@ -5,6 +5,7 @@
 
 #include "runtime/play/core_p.h"
 #include "runtime/play/pixel_insight.h"
+#include "runtime/play/session/places.h"
 
 namespace kinora {
 
@@ -83,6 +84,7 @@ CommandResult action_select_material(PlayerCore& core, const Arguments& a) {
 }
 
 CommandResult action_deselect(PlayerCore& core, const Arguments&) {
+    if (core.cancel_open()) return refused("the scene is not opened");
     core.state.selection = {};
     return {};
 }
@@ -118,8 +120,11 @@ CommandResult action_hide(PlayerCore& core, const Arguments& a) {
     CommandResult result;
     const NodeInfo* node = find_node_info(core, wanted, result);
     if (!node) return result;
+    const std::string id = node->path.substr(node->path.rfind('/') + 1);
+    if (id == number_name(uint32_t(node - core.info->nodes.data())))
+        return refused("the file gives this node neither an id nor a name to be hidden by");
     SceneEdits edits = core.edits;
-    edits.hidden.push_back(node->path.substr(node->path.rfind('/') + 1));
+    edits.hidden.push_back(id);
     core.change_scene(std::move(edits));
     return {};
 }

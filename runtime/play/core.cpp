@@ -159,9 +159,11 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
     if (shown->swapped) return take_swap(*shown);
     if (!shown->scene) {
         if (!info) load = LoadState::Failed;
+        if (shown->replaces_camera) keep_scene();
         return;  // the last good scene stays
     }
     bool first = !info || shown->replaces_camera;
+    if (shown->replaces_camera) changes_before.reset();
     info = shown->info;
     textures = shown->scene->textures;
     images_watched = 0;
@@ -215,6 +217,7 @@ void PlayerCore::take_swap(ShownScene& shown) {
 
 void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with) {
     if (!info) load = LoadState::Loading;
+    if (info && !changes_before) changes_before = {edits, undo, redo};
     edits = with ? with->edits : SceneEdits{};
     for (SceneEdits::Text& text : edits.texts) text.version = ++document.version;
     undo.clear();
@@ -222,6 +225,22 @@ void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with) {
     session = std::move(with);
     forget_stops();
     maker.open(scene, edits, true);
+}
+
+void PlayerCore::keep_scene() {
+    session.reset();
+    if (!changes_before) return;
+    edits = std::move(changes_before->edits);
+    undo = std::move(changes_before->undo);
+    redo = std::move(changes_before->redo);
+    changes_before.reset();
+}
+
+bool PlayerCore::cancel_open() {
+    if (!setup.real_time || !maker.cancel()) return false;
+    if (!info) load = LoadState::Nothing;
+    keep_scene();
+    return true;
 }
 
 bool PlayerCore::picture_ready() const {

@@ -24,6 +24,12 @@ struct PlayerCore {
     SceneRequest request;
     SceneEdits edits;
     std::vector<SceneEdits> undo, redo;
+    // Of the scene that is shown while another one is read; none: none is.
+    struct Changes {
+        SceneEdits edits;
+        std::vector<SceneEdits> undo, redo;
+    };
+    std::optional<Changes> changes_before;
     std::shared_ptr<const SceneInfo> info;
     ShaderDocument document;
     std::vector<FindingText> scene_findings, frame_findings, all_findings;
@@ -38,8 +44,8 @@ struct PlayerCore {
     // Other threads have something new; wait_for() sleeps until then.
     std::mutex wake_mutex;
     std::condition_variable woken;
-    bool typing = false;    // the last change was of the text, by keys
-    std::string dragged;    // the last change was of this parameter: MATERIAL.NAME
+    bool typing = false;  // the last change was of the text, by keys
+    std::string dragged;  // the last change was of this parameter: MATERIAL.NAME
     bool news = false;
     bool files_changed = false;     // under the same mutex
     uint64_t explained_serial = 0;  // of the scene that was explained last
@@ -47,7 +53,7 @@ struct PlayerCore {
     std::optional<std::pair<raytrace::Camera, dvec3>> answered_view;
 
     FileWatch watch;
-    std::vector<std::string> files;  // that are watched
+    std::vector<std::string> files;          // that are watched
     std::shared_ptr<TextureStore> textures;  // of the scene shown
     int images_watched = 0;
     RenderLoop loop;
@@ -81,12 +87,14 @@ struct PlayerCore {
                      const TimeState& before, const std::string& turned);
     void restore_text();
     void show_panel(const std::string& name);  // opens it, in front
-    void forget_stops();   // the files have changed, or the scene
-    void explain_scene();  // to PlayerState::explained, when the answer comes
+    void forget_stops();                       // the files have changed, or the scene
+    void explain_scene();                      // to PlayerState::explained, when the answer comes
     void keep(std::shared_ptr<const Picture> picture);  // to compare with; null: none
     void rebuild() { maker.edit(edits); }
     // Another scene from now on, as soon as it is read; with what a session says of it.
     void open(const SceneRequest& scene, std::optional<Session> with);
+    bool cancel_open();  // the scene that is being read is not wanted any more; false: none is
+    void keep_scene();   // another one could not be opened
     CommandResult act(size_t row, const std::vector<std::string>& arguments);
 
   private:

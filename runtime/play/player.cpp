@@ -78,6 +78,10 @@ LoadState Player::load_state() const {
     return core_->load;
 }
 
+Opening Player::opening() const {
+    return core_->maker.under_way();
+}
+
 CommandResult Player::run(std::string_view word, const std::vector<std::string>& arguments) {
     const Command* command = find_command(word);
     if (!command) {

@@ -47,6 +47,7 @@ enum class LoadState : uint8_t { Nothing, Loading, Ready, Failed };
 struct PlayerCore;   // core_p.h
 struct Thumbnail;    // thumbnails.h
 struct MakerCounts;  // scene_maker.h
+struct Opening;      // scene_maker.h
 
 class Player {
   public:
@@ -58,6 +59,7 @@ class Player {
     // the command `open` names. The one shown stays until it is there. Options as kinora-render's.
     void open(const SceneRequest& request, std::optional<Session> session = std::nullopt);
     LoadState load_state() const;
+    Opening opening() const;  // another scene that is being read
 
     // The only way to any action.
     CommandResult run(std::string_view word, const std::vector<std::string>& arguments);

@@ -61,7 +61,8 @@ struct RenderLoop::Memory {
     uint32_t only_light = kNone;
     bool noisy = true;  // as far as is known
     void follow(const Step& step);
-    std::optional<ViewOrder> dices_for;  // what the redicer was started for; none: a smaller picture
+    std::optional<ViewOrder>
+        dices_for;  // what the redicer was started for; none: a smaller picture
 };
 
 // Pictures of anything else say nothing about the next one.
@@ -97,6 +98,7 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
     {
         std::lock_guard lock(mutex_);
         scene_ = std::move(scene);
+        if (scene_->replaces_camera) begins_ = true;
         swaps_.clear();
         next_ = Pass::Quick;
         stop_ = 1;
@@ -202,9 +204,11 @@ void RenderLoop::run() {
         bool renders = !step->question && !step->display_only;
         if (renders) {
             ++frames_;
+            step->first = begins_;
             in_work_ = *step;
             work_began_.restart();
         }
+        if (renders && begins_) memory_->pacer.begin();
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {
@@ -223,6 +227,7 @@ void RenderLoop::run() {
         } else {
             outcome = make(*step);
             lock.lock();
+            if (outcome.whole && step->scene == scene_) begins_ = false;
             finish(*step, outcome);
         }
         in_work_.reset();
@@ -234,10 +239,11 @@ void RenderLoop::run() {
 }
 
 // With the lock. Does something wait for the end of the quick frame in work? Time that goes by
-// never ends a frame.
+// never ends a frame, and no move a scene's first one.
 bool RenderLoop::is_overtaken() const {
     if (!in_work_ || !real_time_ || stop_) return false;
     if (!questions_.empty() && !questions_.front().posed) return true;
+    if (in_work_->first) return false;
     ViewOrder then = in_work_->order;
     then.frame = order_.frame;
     return !then.same_picture(order_);
@@ -365,9 +371,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     FrameStats stats;
     double filter = 0;
     try {
-        outcome.whole = step.pass == Pass::Refined
-                            ? render_refined(step, settings, *to, stats)
-                            : render_quick(step, settings, *to, stats);
+        outcome.whole = step.pass == Pass::Refined ? render_refined(step, settings, *to, stats)
+                                                   : render_quick(step, settings, *to, stats);
     } catch (const std::bad_alloc&) {
         std::lock_guard lock(mutex_);
         findings_.push_back(plain_finding("MEMORY", "there is not enough memory for the picture"));
@@ -388,9 +393,9 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         if (filters) {
             StageTimer timer(filter);
             const bool known = memory_->first.places;
-            memory_->noisy = known ? memory_->denoiser.filter(*step.scene->scene, memory_->first,
-                                                              to->film)
-                                   : memory_->first.any_noise();
+            memory_->noisy =
+                known ? memory_->denoiser.filter(*step.scene->scene, memory_->first, to->film)
+                      : memory_->first.any_noise();
         }
         Stopwatch present;
         to->scale = step.scale;
@@ -409,7 +414,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     // A frame that was ended early says nothing, unless it was late already.
     if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
         memory_->pacer.aim_at(target);
-        memory_->pacer.add(times.total, times.animate + times.skin + times.refit + times.present - filter);
+        memory_->pacer.add(times.total,
+                           times.animate + times.skin + times.refit + times.present - filter);
     }
     return outcome;
 }
@@ -497,7 +503,7 @@ bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings,
 
 // The refined picture never is, nor those that no clock hurries.
 bool RenderLoop::is_filtered(const Step& step) const {
-    return real_time_ && step.order.filter && step.samples < step.whole_samples;
+    return real_time_ && step.order.filter && !step.first && step.samples < step.whole_samples;
 }
 
 // The guide, the picture's own size, and what is displayed.
@@ -512,7 +518,7 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     bool small = film->width != to.width || film->height != to.height;
     if (shows_guide(step.display.aov))
         make_guide(scene, to.width, to.height, to.guide);
-    else if (small && 2 * film->width >= to.width)
+    else if (small && (2 * film->width >= to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
     else if (small)  // a quarter of the rays says where the edges are
         make_guide(scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);

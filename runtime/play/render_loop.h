@@ -58,6 +58,7 @@ class RenderLoop {
         std::shared_ptr<ShownScene> scene;
         std::optional<Question> question;
         bool display_only = false;
+        bool first = false;  // of another scene
         double scale = 1;
         int samples = 1;
         int whole_samples = 1;
@@ -105,6 +106,7 @@ class RenderLoop {
     std::vector<FindingText> findings_;
     std::deque<StageTimes> times_;
     Pass next_ = Pass::Done;
+    bool begins_ = false;  // another scene: its first picture is to come soon
     bool display_changed_ = false, working_ = false, quit_ = false;
     std::optional<Step> in_work_;
     Stopwatch work_began_;

@@ -67,8 +67,31 @@ bool SceneMaker::idle() const {
 
 bool SceneMaker::opening() const {
     std::lock_guard lock(mutex_);
-    return (order_ && order_->replaces_camera) || (working_ && replaces_camera_) ||
+    return (order_ && order_->replaces_camera) || (working_ && replaces_camera_ && !cancelled_) ||
            std::ranges::any_of(made_, [](const auto& made) { return made->replaces_camera; });
+}
+
+bool SceneMaker::cancel() {
+    std::lock_guard lock(mutex_);
+    if (order_ && order_->replaces_camera) {
+        order_.reset();
+        return true;
+    }
+    if (!working_ || !replaces_camera_ || cancelled_) return false;
+    return cancelled_ = true;
+}
+
+Opening SceneMaker::under_way() const {
+    std::lock_guard lock(mutex_);
+    if (!working_ || !replaces_camera_ || cancelled_) return {};
+    return {step_, began_.ms() / 1000};
+}
+
+bool SceneMaker::goes_on(Opening::Step step) {
+    std::lock_guard lock(mutex_);
+    if (step == Opening::Step::Reads) began_.restart();
+    step_ = step;
+    return !cancelled_;
 }
 
 void SceneMaker::run() {
@@ -80,11 +103,13 @@ void SceneMaker::run() {
         order_.reset();
         working_ = true;
         replaces_camera_ = order.replaces_camera;
+        cancelled_ = false;
         lock.unlock();
         std::unique_ptr<ShownScene> made = make(order);
         lock.lock();
-        put(std::move(made));
+        if (made) put(std::move(made));
         working_ = false;
+        step_ = Opening::Step::None;
         lock.unlock();
         done_();
         lock.lock();
@@ -104,29 +129,43 @@ void SceneMaker::put(std::unique_ptr<ShownScene> made) {
     made_.push_back(std::move(made));
 }
 
+// Null: cancelled. What was read before is left as it was by another scene that is not shown.
 std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
     auto shown = std::make_unique<ShownScene>();
     shown->diagnostics = std::make_unique<Diagnostics>();
     shown->edits = order.edits;
     shown->replaces_camera = order.replaces_camera;
+    std::optional<AsRead> before;
+    if (order.open && order.replaces_camera && read_.scene) before = std::exchange(read_, AsRead{});
+    make(order, *shown);
+    if (!goes_on(Opening::Step::None)) shown.reset();
+    const bool good = shown && (shown->scene || shown->swapped);
+    if (before && !good) {
+        read_ = std::move(*before);
+        built_with_ = {};
+        swapper_.reset();  // the next edit builds
+    }
+    if (!good) return shown;
+    ++serial_;
+    info_ = shown->info;
+    built_with_ = order.edits;
+    return shown;
+}
+
+void SceneMaker::make(const Order& order, ShownScene& shown) {
     std::optional<SerialScope> serial;
     if (serial_ > 0) serial.emplace();  // the frames of the scene shown go first
     try {
-        bool done = order.open ? !read(*order.open, *shown) : swap(order, *shown);
-        if (!done) build(order, *shown);
+        if (order.open) goes_on(Opening::Step::Reads);
+        const bool done = order.open ? !read(*order.open, shown) : swap(order, shown);
+        if (!done && goes_on(Opening::Step::Builds)) build(order, shown);
     } catch (const std::bad_alloc&) {
-        shown->scene.reset();
-        shown->exit_code = kExitRetry;
-        shown->findings.push_back(plain_finding("MEMORY", "there is not enough memory"));
+        shown.scene.reset();
+        shown.exit_code = kExitRetry;
+        shown.findings.push_back(plain_finding("MEMORY", "there is not enough memory"));
     }
-    auto found = take_findings(*shown->diagnostics);
-    shown->findings.insert(shown->findings.end(), found.begin(), found.end());
-    if (shown->scene || shown->swapped) {
-        ++serial_;
-        info_ = shown->info;
-        built_with_ = order.edits;
-    }
-    return shown;
+    auto found = take_findings(*shown.diagnostics);
+    shown.findings.insert(shown.findings.end(), found.begin(), found.end());
 }
 
 bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
@@ -136,10 +175,10 @@ bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
     shown.request = request;
     shown.exit_code = kExitUnreadable;
     std::optional<ImportedScene> imported = import_requested(request, diagnostics);
-    files_.clear();
+    read_.files.clear();
     for (FileId f = 0; f < diagnostics.files.count(); ++f)
-        files_.push_back(diagnostics.files.name(f));
-    shown.files = files_;
+        read_.files.push_back(diagnostics.files.name(f));
+    shown.files = read_.files;
     if (!imported) return false;
     if (!imported->clip_known) {
         shown.exit_code = kExitUsage;
@@ -148,19 +187,19 @@ bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
         return false;
     }
     shown.exit_code = exit_code_of_findings(diagnostics, kExitOk);
-    broken_.clear();
-    broken_findings_.clear();
+    read_.broken.clear();
+    read_.broken_findings.clear();
     if (shows_broken_ && shown.exit_code == kExitShader) {
         for (const Finding& finding : diagnostics.findings())
             if (finding.severity == Severity::Error && finding.where.file != kNoFile)
-                add_broken_shaders(diagnostics.files, finding.where, broken_);
-        broken_findings_ = take_findings(diagnostics);
+                add_broken_shaders(diagnostics.files, finding.where, read_.broken);
+        read_.broken_findings = take_findings(diagnostics);
     } else if (shown.exit_code != kExitOk) {
         return false;
     }
-    base_ = std::move(imported);
-    texts_ = diagnostics.files;
-    request_ = request;
+    read_.scene = std::move(imported);
+    read_.texts = diagnostics.files;
+    read_.request = request;
     return true;
 }
 
@@ -189,18 +228,18 @@ ImportedScene copy_without_geometry(ImportedScene& from) {
 }  // namespace
 
 void SceneMaker::begin(ShownScene& shown) const {
-    shown.request = request_;
-    shown.files = files_;
-    shown.rate = base_->rate;
+    shown.request = read_.request;
+    shown.files = read_.files;
+    shown.rate = read_.scene->rate;
     shown.exit_code = kExitShader;
-    shown.diagnostics->judge(request_.findings.judgement());
-    shown.diagnostics->files = texts_;
+    shown.diagnostics->judge(read_.request.findings.judgement());
+    shown.diagnostics->files = read_.texts.fork();  // edited texts go when their scene does
 }
 
 // A broken text is that of all materials that wear its effect, and so is what it becomes.
 SceneEdits SceneMaker::with_shared_texts(SceneEdits edits) const {
-    for (const BrokenShader& one : broken_)
-        for (const BrokenShader& other : broken_) {
+    for (const BrokenShader& one : read_.broken)
+        for (const BrokenShader& other : read_.broken) {
             auto text = std::ranges::find(edits.texts, one.material, &SceneEdits::Text::material);
             if (text == edits.texts.end() || has_text(edits, other.material)) continue;
             if (one.source.file != other.source.file || one.source.begin != other.source.begin)
@@ -217,13 +256,14 @@ constexpr int kSwapsKept = 32;
 
 // False: the scene is to be built.
 bool SceneMaker::swap(const Order& order, ShownScene& shown) {
-    if (!base_ || !swapper_ || order.edits.hidden != built_with_.hidden) return false;
+    if (!read_.scene || !swapper_ || order.edits.hidden != built_with_.hidden) return false;
     begin(shown);
     Diagnostics& diagnostics = *shown.diagnostics;
     Stopwatch watch;
-    ImportedScene imported = copy_without_geometry(*base_);
+    ImportedScene imported = copy_without_geometry(*read_.scene);
     EditedShaders shaders = shaders_;
-    if (!apply_edits(imported, with_shared_texts(order.edits), request_, diagnostics, &shaders))
+    if (!apply_edits(imported, with_shared_texts(order.edits), read_.request, diagnostics,
+                     &shaders))
         return true;
     ShaderSwap swap;
     switch (swapper_->swap(imported.description, diagnostics, swap)) {
@@ -246,17 +286,17 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
 }
 
 void SceneMaker::build(const Order& order, ShownScene& shown) {
-    if (!base_) return;
+    if (!read_.scene) return;
     begin(shown);
     Diagnostics& diagnostics = *shown.diagnostics;
     Stopwatch watch;
     SceneEdits edits = with_shared_texts(order.edits);
     bool mended = std::ranges::all_of(
-        broken_, [&](const BrokenShader& broken) { return has_text(edits, broken.material); });
-    if (!mended || broken_.empty()) shown.findings = broken_findings_;
-    ImportedScene imported = *base_;
+        read_.broken, [&](const BrokenShader& broken) { return has_text(edits, broken.material); });
+    if (!mended || read_.broken.empty()) shown.findings = read_.broken_findings;
+    ImportedScene imported = *read_.scene;
     EditedShaders shaders;
-    if (!apply_edits(imported, edits, request_, diagnostics, &shaders)) return;
+    if (!apply_edits(imported, edits, read_.request, diagnostics, &shaders)) return;
     SceneDescription edited = copy_without_geometry(imported).description;
     BuiltScene built = build_imported(std::move(imported), diagnostics);
     shown.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
@@ -264,17 +304,18 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     shown.exit_code = kExitOk;
     // What is diced or exposed by itself depends on its shaders.
     swapper_.reset();
-    if (!built.redicer && !request_.auto_exposure)
-        swapper_.emplace(*built.scene, std::move(edited), base_->description.values.size());
+    if (!built.redicer && !read_.request.auto_exposure)
+        swapper_.emplace(*built.scene, std::move(edited), read_.scene->description.values.size());
     shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
     shown.scene->textures->each_image(
         [&](const StoredImage& image) { shown.files.push_back(image.file); });
     shown.redicer = std::move(built.redicer);
-    shown.settings = frame_settings(request_, *shown.scene, diagnostics);
-    auto info = scene_info(*shown.scene, {base_->description, texts_}, request_, shown.rate);
+    shown.settings = frame_settings(read_.request, *shown.scene, diagnostics);
+    auto info = scene_info(*shown.scene, {read_.scene->description, read_.texts}, read_.request,
+                           shown.rate);
     for (MaterialInfo& material : info->materials)
-        for (const BrokenShader& broken : broken_)
+        for (const BrokenShader& broken : read_.broken)
             if (broken.material == material.id && !material.source)
                 material.source = std::make_shared<const ShaderSourceText>(broken.source);
     info->serial = serial_ + 1;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "runtime/base/stats.h"
 #include "runtime/play/shown_scene.h"
 
 namespace kinora {
@@ -18,6 +19,12 @@ namespace kinora {
 struct MakerCounts {
     uint64_t scenes = 0;   // built
     uint64_t kernels = 0;  // compiled for a scene that stood
+};
+
+// Another scene on its way.
+struct Opening {
+    enum class Step : uint8_t { None, Reads, Builds } step = Step::None;
+    double seconds = 0;  // since it was begun
 };
 
 class SceneMaker {
@@ -39,6 +46,10 @@ class SceneMaker {
     MakerCounts counts() const;
     bool idle() const;     // no order, and nothing to take
     bool opening() const;  // another scene, which is not taken yet
+    // Another scene that is being read or built will not be taken: the last one stays. False: none
+    // was. The thread leaves it at the end of the step that it is in.
+    bool cancel();
+    Opening under_way() const;
 
   private:
     struct Order {
@@ -48,6 +59,8 @@ class SceneMaker {
     };
     void run();
     std::unique_ptr<ShownScene> make(const Order& order);
+    void make(const Order& order, ShownScene& shown);
+    bool goes_on(Opening::Step step);  // false: cancelled
     bool read(const SceneRequest& request, ShownScene& shown);
     bool swap(const Order& order, ShownScene& shown);
     void build(const Order& order, ShownScene& shown);
@@ -65,17 +78,25 @@ class SceneMaker {
     bool working_ = false, quit_ = false;
     bool replaces_camera_ = false;  // the order in work
 
+    bool cancelled_ = false;  // it is not wanted any more
+    Opening::Step step_ = Opening::Step::None;
+    Stopwatch began_;
+
+    // What reading a file leaves.
+    struct AsRead {
+        std::optional<ImportedScene> scene;
+        SceneRequest request;
+        std::vector<std::string> files;
+        SourceFiles texts;
+        std::vector<BrokenShader> broken;
+        std::vector<FindingText> broken_findings;
+    };
     // Of the thread.
-    std::optional<ImportedScene> base_;     // as read
+    AsRead read_;
     std::optional<ShaderSwapper> swapper_;  // of the scene built last
     SceneEdits built_with_;                 // it, and what it was swapped to since
     EditedShaders shaders_;
-    std::vector<BrokenShader> broken_;  // of the scene as read
-    std::vector<FindingText> broken_findings_;
     std::shared_ptr<const SceneInfo> info_;
-    SceneRequest request_;
-    std::vector<std::string> files_;
-    SourceFiles texts_;  // that `base_` was read from
     uint64_t serial_ = 0;
     int swaps_ = 0;  // so far
     std::thread thread_;

@@ -62,17 +62,16 @@ ShaderParamInfo param_info(const SceneDescription& description, std::span<const 
     return info;
 }
 
-std::string shown_name(const NodeDefinition& node) {
-    return node.name.empty() ? node.id : node.name;
-}
-
 std::vector<NodeInfo> node_infos(const Scene& scene) {
     std::vector<NodeInfo> infos;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         NodeInfo& info = infos.emplace_back();
-        if (node.definition != kNone)
-            info.name = shown_name(scene.description->nodes[node.definition]);
+        if (node.definition != kNone) {
+            const NodeDefinition& definition = scene.description->nodes[node.definition];
+            info.name = definition.name.empty() ? definition.id : definition.name;
+        }
+        if (info.name.empty()) info.name = number_name(n);
         info.path = node_path(scene, n);
         info.parent = node.parent;
         info.depth = node.parent == kNone ? 0 : infos[node.parent].depth + 1;

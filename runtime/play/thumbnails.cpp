@@ -150,7 +150,7 @@ void Thumbnails::make(const ThumbnailOrder& order) {
         shown.request = small;
         shown.rate = imported->rate;
         shown.diagnostics = std::make_unique<Diagnostics>();
-        shown.diagnostics->files = read.files;
+        shown.diagnostics->files = read.files.fork();
         ImportedScene dressed = *imported;
         const SceneEdits edits = edits_with_text(
             order.edits, {order.material, name + ".sl", std::string(library_shader_text(name))});

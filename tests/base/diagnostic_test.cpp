@@ -31,6 +31,20 @@ TEST(SourceFiles, LinesAndColumnsCountFromOneInBytes) {
     EXPECT_EQ(files.line_text(id, 0), "");
 }
 
+TEST(SourceFiles, AForkSharesWhatThereWasAndKeepsTheRestToItself) {
+    SourceFiles files;
+    FileId first = files.add("a.sl", "one\ntwo");
+    SourceFiles fork = files.fork(), copy = files;
+    FileId mine = fork.add("mine.sl", "x\ny"), theirs = copy.add("theirs.sl", "z");
+    EXPECT_EQ(mine, theirs);
+    EXPECT_EQ(fork.name(mine), "mine.sl");
+    EXPECT_EQ(files.name(theirs), "theirs.sl");
+    EXPECT_EQ(fork.text(first).data(), files.text(first).data());
+    EXPECT_EQ(fork.line_column(first, 4).line, 2);
+    EXPECT_EQ(files.line_column(first, 4).line, 2);
+    EXPECT_EQ(fork.line_text(mine, 2), "y");
+}
+
 TEST(SourceMap, MapsThroughItsSegments) {
     // "a&lt;b]]>...<![CDATA[c" decoded to "a<bc": the file's offsets jump twice.
     SourceMap map{3, {{0, 100}, {2, 105}, {3, 120}}};

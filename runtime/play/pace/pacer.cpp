@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace kinora {
 
@@ -23,6 +24,12 @@ void Pacer::forget() {
     known_ = 0;
     calm_ = 0;
     patience_ = since_larger_ = kFirstPatience;
+}
+
+void Pacer::begin() {
+    forget();
+    step_ = kSteps - 1;
+    first_ = true;
 }
 
 // The median of what the last frames would have taken at that size; of fewer than three the least.
@@ -49,6 +56,10 @@ void Pacer::shrink(size_t step) {
 }
 
 void Pacer::add(double ms, double fixed_ms) {
+    if (std::exchange(first_, false)) {  // with what is done once, it says little of the others
+        if (ms <= target_) step_ = 0;
+        return;
+    }
     std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());
     const double fixed = std::clamp(fixed_ms, 0.0, ms);
     recent_[0] = {(ms - fixed) / (scale() * scale()), fixed};

@@ -15,8 +15,8 @@ class Pacer {
     double scale() const;
     // The last frame, of that scale, took so many ms; so many of these whatever its size.
     void add(double ms, double fixed_ms = 0);
-    // Another scene: nothing is known.
-    void forget();
+    // Another scene, of which nothing is known: its first frame has the fewest pixels.
+    void begin();
 
     // Sizes differ by 2^(1/8) in width: pixels by about 0.84.
     static constexpr size_t kSteps = 17;
@@ -33,12 +33,14 @@ class Pacer {
     double time_at(size_t step, size_t frames) const;
     size_t fitting(double ms, size_t frames) const;
     void shrink(size_t step);
+    void forget();
 
     struct Cost {
         double whole = 0, fixed = 0;  // ms: of all pixels, and whatever their number
     };
     double target_ = 1000.0 / 30;
     size_t step_ = 0;                     // 0: all pixels
+    bool first_ = false;                  // the next time is that of a scene's first frame
     std::array<Cost, kWindow> recent_{};  // the newest first
     size_t known_ = 0;                    // of them
     int calm_ = 0;                        // frames for which a larger picture would have fitted

@@ -8,12 +8,18 @@
 
 namespace kinora {
 
+std::string number_name(uint32_t node) {
+    return "#" + std::to_string(node + 1);
+}
+
 std::string node_path(const Scene& scene, uint32_t node) {
     std::string path;
     for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
         if (scene.nodes[n].definition == kNone) continue;
         const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
-        path = (step.id.empty() ? step.name : step.id) + (path.empty() ? "" : "/" + path);
+        std::string name = step.id.empty() ? step.name : step.id;
+        if (name.empty()) name = number_name(n);
+        path = name + (path.empty() ? "" : "/" + path);
     }
     return path;
 }

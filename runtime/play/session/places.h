@@ -10,7 +10,8 @@
 
 namespace kinora {
 
-// "torso/head/eye", by ids.
+// "torso/head/eye", by ids; of a node with neither id nor name its number from 1: "#7".
+std::string number_name(uint32_t node);
 std::string node_path(const Scene& scene, uint32_t node);
 uint32_t find_node(const Scene& scene, const std::string& path_id_or_name);  // kNone: none
 

@@ -251,14 +251,15 @@ class WindowTest(unittest.TestCase):
         window = self.open(MATTE)
         self.drawn(PICTURE)
 
-        def ticks():
-            fields = Path(f"/proc/{window.process.pid}/stat").read_text().rsplit(") ", 1)[1].split()
-            return int(fields[11]) + int(fields[12])
+        def wakes():
+            """How often any of its threads has left a processor."""
+            tasks = Path(f"/proc/{window.process.pid}/task").glob("*/status")
+            return sum(int(count) for task in tasks for count in re.findall(r"ctxt_switches:\s+(\d+)", task.read_text()))
 
         def rests():
-            before = ticks()
+            before = wakes()
             time.sleep(2)
-            return ticks() - before <= 2  # hundredths of a second
+            return wakes() == before
         self.eventually(rests, "it never comes to rest: the picture is refined, nothing changes", 90)
 
     def test_resized_and_closed_while_it_loads(self):
@@ -345,42 +346,49 @@ class WindowTest(unittest.TestCase):
         window.recorded(self.record, "^hud$", 2)
         self.words(window)
 
+    PRESSES = 10
+
     def answers(self, window, box):
-        """Milliseconds from a press of H to the screen that it changes, ten times; xdotool's own time is among them."""
+        """Milliseconds from a press of H to the screen that it changes; xdotool's own time is among them."""
         times = []
-        for _ in range(10):
+        for _ in range(self.PRESSES):
             before = self.display.rgb()
             start = time.monotonic()
             self.display.xdotool("key", "h")
             while changed(before, self.display.rgb(), box, 1280) < 500:
-                self.assertLess(time.monotonic() - start, 20, "the window does not answer")
+                self.assertLess(time.monotonic() - start, 60, "the window does not answer")
             times.append(1000 * (time.monotonic() - start))
             time.sleep(0.3)  # laid out; no press is counted twice
         return sorted(times)
 
+    def frames_ended(self, window, name):
+        """When each frame ended so far, by a line of the script."""
+        file = self.folder / name
+        window.process.stdin.write(f"stats {file}\n")
+        window.process.stdin.flush()
+        self.eventually(lambda: file.exists() and file.read_text().endswith("}\n"), "no stats", 60)
+        return {row["at"] for row in json.loads(file.read_text())["ms"]}
+
     def test_it_answers_while_a_frame_takes_long(self):
-        """Every frame is endless, or one of many rays. The best of ten is compared, since other work may hold the processors:
-        at rest it is the same as while frames are made, and one whose loop waited for the frame would never be near it."""
-        script = self.folder / "script.txt"
-        script.write_text('select_material bright\nedit\nplay on\n'
-                          'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0; while (1) k += u; Ci = k; Oi = 1; }"\n')
-        box = (400, 200, 700, 400)
-        window = self.open(MATTE)
-        self.drawn(PICTURE)
-        window.wait_still(30, 1)
-        rest = self.answers(window, box)
-        self.words(window)
-        for scene, words in ((MATTE, ("--script", script)), (SCENES / "rays.dae", ("--quality", "final"))):
+        """Every frame is endless, or one of many rays. Each press changes the screen though fewer frames end meanwhile: a loop
+        that waited for the frame would answer once a frame. The times are printed and judge nothing: the processors may be busy."""
+        script = ("select_material bright", "edit", "play on",
+                  'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0, j; while (1) for (j = 0; j > -1; j += 1) k += u; Ci = k; Oi = 1; }"')
+        for scene, words, lines in ((MATTE, (), script), (SCENES / "rays.dae", ("--quality", "final"), ())):
             with self.subTest(scene.name):
-                self.record.unlink()
-                window = self.open(scene, *words)
-                if words[0] == "--script":
+                window = self.open(scene, "--script", "-", *words, stdin=subprocess.PIPE)
+                self.drawn(PICTURE)
+                window.process.stdin.write("".join(line + "\n" for line in lines))
+                window.process.stdin.flush()
+                if lines:
                     window.recorded(self.record, "^set_text ")
-                time.sleep(2)
-                busy = self.answers(window, box)
-                print(f"{scene.name}: {busy[0]:.0f} ms at best, {busy[5]:.0f} in the median; at rest {rest[0]:.0f} and {rest[5]:.0f}")
-                self.assertLess(busy[0], rest[0] + 100)
+                before = self.frames_ended(window, scene.stem + "_before.json")
+                times = self.answers(window, (400, 200, 700, 400))
+                ended = self.frames_ended(window, scene.stem + "_after.json") - before
+                print(f"{scene.name}: {times[0]:.0f} ms at best, {times[len(times) // 2]:.0f} in the median; {len(ended)} frames ended")
+                self.assertLess(len(ended), self.PRESSES)
                 self.words(window)
+                self.record.unlink()
 
     def test_a_script_that_fails_says_where(self):
         script = self.folder / "script.txt"

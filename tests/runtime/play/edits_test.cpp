@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
+#include <set>
 
 #include "jit/compiler.h"
 #include "runtime/play/scene_maker.h"
@@ -117,14 +119,39 @@ class Typist {
     uint32_t state_ = 7;
 };
 
-void edit(Player& player, Typist& typist, int count) {
-    for (int k = 0; k < count; ++k) {
-        ASSERT_TRUE(player.run("set_text", {typist.next()}).done);
-        player.advance(0.01);
-        if (k % 8 == 0) {
-            ASSERT_TRUE(player.wait_picture(kLong)) << k;
+struct Longest {
+    double ms = 0;       // of the frames of shaders that end
+    double endless = 0;  // of those whose loops end by their budget
+    double at = -1;      // of the last frame that was looked at
+    void look_at(Player& player, bool loops) {
+        for (const StageTimes& times : player.stage_times()) {
+            if (times.at <= at) continue;
+            at = times.at;
+            double& longest = loops ? endless : ms;
+            longest = std::max(longest, times.total);
         }
     }
+};
+
+constexpr double kTypes = 1;  // seconds until the next edit, at most
+
+void edit(Player& player, Typist& typist, int count, Longest& longest) {
+    std::set<uint64_t> endless;  // versions of the text
+    const auto loops = [&] { return endless.contains(player.shader().shown); };
+    bool looped = false;
+    int pictures = 0;
+    for (int k = 0; k < count; ++k) {
+        const std::string text = typist.next();
+        longest.look_at(player, looped || loops());
+        looped = loops();
+        ASSERT_TRUE(player.run("set_text", {text}).done);
+        if (text.find("while (1)") != text.npos) endless.insert(player.shader().version);
+        player.advance(0.01);
+        // One of a shader that loops for ever need not come: typing goes on.
+        if (k % 8 == 0) pictures += player.wait_picture(kTypes);
+    }
+    EXPECT_GT(pictures, 0);
+    longest.look_at(player, looped || loops());
 }
 
 size_t memory_with(Player& player, const std::string& text) {
@@ -144,35 +171,39 @@ size_t memory_with(Player& player, const std::string& text) {
     return used;
 }
 
-// Disabled: memory grows by some 0.3 % a hundred edits, and why is not known. In a folder of its
-// own: some of the shaders write files beside the scene.
-TEST(Edits, DISABLED_AThousandAtRandomLeaveNothingBehind) {
+// A hundred, or as many as KINORA_EDITS says; in a folder of its own, since some of the shaders
+// write files beside the scene. The same ones come twice: the first time sizes buffers.
+TEST(Edits, AtRandomLeaveNothingBehind) {
+    const char* wanted = std::getenv("KINORA_EDITS");
+    const int count = wanted ? std::max(1, std::atoi(wanted)) : 100;
     const std::string file = testing::TempDir() + "kinora_play_edits.dae";
     write(file, text_of(scene_path("scenes/walker.dae")));
     Played played(small_request(file), {true, false, nullptr});
     Player& player = played.player;
     EXPECT_EQ(played.script("select_material wall-material; edit; play on"), "");
     const std::string text = player.shader().text;
-    Typist typist(text);
-    double longest = 0;
-    std::array<size_t, 4> used{};
-    std::vector<size_t> kernels;  // that the cache holds
-    for (size_t& bytes : used) {
-        for (int k = 0; k < 4; ++k) {
-            edit(player, typist, 70);
-            for (const StageTimes& times : player.stage_times())
-                longest = std::max(longest, times.total);
-        }
-        bytes = memory_with(player, text);
-        kernels.push_back(jit::cache_stats().kernels);
+    Longest longest;
+    std::array<size_t, 2> used{}, kernels{};
+    for (size_t k = 0; k < used.size(); ++k) {
+        Typist typist(text);
+        edit(player, typist, count, longest);
+        used[k] = memory_with(player, text);
+        kernels[k] = jit::cache_stats().kernels;
     }
     const MakerCounts made = player.made();
-    std::printf("memory %.1f %.1f %.1f %.1f MB; longest frame %.0f ms; %d kernels, %d scenes\n",
-                double(used[0]) / 1e6, double(used[1]) / 1e6, double(used[2]) / 1e6,
-                double(used[3]) / 1e6, longest, int(made.kernels), int(made.scenes));
-    for (size_t count : kernels) EXPECT_EQ(count, kernels.front());
-    // The first parts size buffers for the hardest texts; what leaks grows in the last one too.
-    EXPECT_LE(double(used[3]), 1.01 * double(used[2]));
+    std::printf(
+        "\nmemory %.3f, then %.3f MB; longest frame %.0f ms, of endless loops %.0f ms; "
+        "%d kernels, %d scenes\n",
+        double(used[0]) / 1e6, double(used[1]) / 1e6, longest.ms, longest.endless,
+        int(made.kernels), int(made.scenes));
+    EXPECT_EQ(kernels[0], kernels[1]);
+    constexpr size_t kMostOfAnEdit = 1500;  // bytes: less than a text
+    EXPECT_LE(used[1], used[0] + kMostOfAnEdit * size_t(count));
+    EXPECT_LE(double(used[1]), 1.01 * double(used[0]));
+    // Other work on the machine may hold a frame: judged where it is known to be idle.
+    if (std::getenv("KINORA_FRAME_MS")) {
+        EXPECT_LE(longest.ms, std::atof(std::getenv("KINORA_FRAME_MS")));
+    }
 }
 
 }  // namespace

@@ -104,6 +104,17 @@ TEST(Pacer, SpendsTheTimeThatItHas) {
         }
 }
 
+// A scene of which nothing is known: a picture soon, then all pixels, where even few fit.
+TEST(Pacer, BeginsWithTheFewestPixels) {
+    Pacer pacer = pacer_at_target();
+    pacer.begin();
+    std::vector<double> fast = scales(pacer, {60, 20, 20});
+    EXPECT_EQ(fast, (std::vector<double>{0.25, 1, 1}));
+    pacer.begin();
+    std::vector<double> slow = scales(pacer, {2000, 2000, 2000});
+    EXPECT_EQ(slow, (std::vector<double>{0.25, 0.25, 0.25}));
+}
+
 TEST(Pacer, StopsAtItsSmallestSize) {
     Pacer pacer = pacer_at_target();
     EXPECT_EQ(scales(pacer, std::vector<double>(50, 1e5)).back(),

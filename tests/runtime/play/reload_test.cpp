@@ -86,5 +86,28 @@ TEST(Reload, FollowsTextures) {
     std::filesystem::remove_all(folder);
 }
 
+// By Escape. The scene shown keeps its edits, and the next edit is put on it.
+TEST(Open, IsLeftAndTheSceneShownStays) {
+    Played played(small_request(scene_path("scenes/matte.dae")), {true, false, nullptr});
+    Player& player = played.player;
+    EXPECT_EQ(played.script("select_material bright; param Kd 0.25; wait refined"), "");
+    ASSERT_TRUE(player.run("open", {scene_path("scenes/walker.dae")}).done);
+    EXPECT_EQ(player.run("deselect", {}).message, "the scene is not opened");
+    ASSERT_TRUE(player.wait_idle(kLong));
+    EXPECT_NE(player.scene()->path.find("matte"), std::string::npos);
+    const std::vector<uint8_t> pale = player.picture()->rgba;
+    EXPECT_EQ(played.script("undo; wait refined"), "");
+    EXPECT_NE(player.picture()->rgba, pale);
+    EXPECT_EQ(played.script("redo; wait refined"), "");
+    EXPECT_EQ(player.picture()->rgba, pale);
+}
+
+TEST(Open, NodesWithoutNamesHaveNumbers) {
+    Played played("scenes/rays.dae");
+    EXPECT_EQ(played.script("select \"#3\""), "");
+    EXPECT_EQ(played.player.state().selection.node, "#3");
+    EXPECT_NE(played.script("hide").find("neither an id nor a name"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kinora

@@ -21,8 +21,6 @@ constexpr const char* kFolders[] = {
     "/usr/share/fonts/dejavu-sans-fonts",
 };
 
-constexpr ImWchar kLatin[] = {0x20, 0x17f, 0x2010, 0x2030, 0x2190, 0x2193, 0};
-
 std::string font_file(const char* name) {
     for (const char* folder : kFolders) {
         std::string file = std::string(folder) + "/" + name;
@@ -78,7 +76,7 @@ Fonts load_fonts(float scale, const Letters& letters) {
         fonts.bold = fonts.mono = fonts.text;
     } else {
         fonts.found = true;
-        fonts.bold = add("DejaVuSans-Bold.ttf", size(15), kLatin, {});
+        fonts.bold = add("DejaVuSans-Bold.ttf", size(15), first_letters(), {});
         fonts.mono = add("DejaVuSansMono.ttf", size(15), first_letters(), further);
         if (!fonts.bold) fonts.bold = fonts.text;
         if (!fonts.mono) fonts.mono = fonts.text;

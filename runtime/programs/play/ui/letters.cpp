@@ -15,8 +15,8 @@ namespace kinora::play {
 
 namespace {
 
-constexpr ImWchar kFirst[] = {0x20,   0x24f,  0x370,  0x3ff,  0x400,  0x4ff,  0x2010, 0x2060,
-                              0x2190, 0x21ff, 0x2200, 0x226f, 0x25a0, 0x25ff, 0};
+// Few, since all are drawn before the first panels are.
+constexpr ImWchar kFirst[] = {0x20, 0xff, 0x2010, 0x2030, 0x2190, 0x2193, 0};
 constexpr size_t kMostLetters = 4096;  // beyond the first ones: what a texture can hold
 constexpr size_t kMostFonts = 2000;    // files that are opened for a letter
 

@@ -85,7 +85,7 @@ void Ui::take_fonts() {
 void Ui::follow_letters() {
     const auto scene = context_.player.scene();
     const ShaderDocument& shader = context_.player.shader();
-    bool some = false;
+    bool some = std::exchange(typed_some_, false);
     if (scene && scene->serial != lettered_scene_) {
         lettered_scene_ = scene->serial;
         some |= letters_.add(scene->path);

@@ -25,6 +25,8 @@ class Ui {
     // A key of the table by its name: "Ctrl+S". False: no row has it, or the keyboard belongs to a
     // text.
     bool press(const std::string& key);
+    // Text from the keyboard: from the next turn on there are letters for it.
+    void typed(const char* text) { typed_some_ |= letters_.add(text); }
     // The keys of flight, see Viewport.
     void steer(dvec3 steering) { viewport_.steer(steering); }
     // Whether letters are text at present.
@@ -56,6 +58,7 @@ class Ui {
     Theme theme_;
     Texture font_;
     Letters letters_;
+    bool typed_some_ = false;                          // letters that the fonts do not have yet
     uint64_t lettered_scene_ = 0, lettered_text_ = 0;  // looked through for letters
     std::string lettered_material_;
     size_t lettered_findings_ = 0;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/play/display.h"
+#include "runtime/play/scene_maker.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {
@@ -27,6 +28,16 @@ std::string number(double value) {
 void shadowed_text(ImDrawList* list, ImVec2 at, ImU32 color, const std::string& text) {
     list->AddText({at.x + 1, at.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
     list->AddText(at, color, text.c_str());
+}
+
+// "" where no other scene is on its way.
+std::string opening_text(const Player& player) {
+    const Opening opening = player.opening();
+    if (opening.step == Opening::Step::None)
+        return player.load_state() == LoadState::Loading ? "Reading the scene" : "";
+    const char* what =
+        opening.step == Opening::Step::Reads ? "Reading the scene" : "Building the scene";
+    return fmt::format("{}, {:.0f} s. Esc leaves it", what, opening.seconds);
 }
 
 }  // namespace
@@ -132,7 +143,8 @@ void Viewport::show_under_pointer(const Context& context) {
     const std::string& aov = context.state().picture.aov;
     if (aov.empty()) return;
     under_pointer_ += "   " + aov;
-    for (float value : shown_numbers(*picture_, aov, static_cast<double>(x), static_cast<double>(y)))
+    for (float value :
+         shown_numbers(*picture_, aov, static_cast<double>(x), static_cast<double>(y)))
         under_pointer_ += fmt::format(" {:.5g}", value);
 }
 
@@ -151,8 +163,9 @@ void Viewport::draw_scale(const Theme& theme, const NumberScale& scale) const {
         const vec3 c = scale.in_color ? false_color(share) : vec3(share);
         const auto shown = [](float v) { return std::pow(v, 1 / 2.2f); };
         const float x = corner.x + width * static_cast<float>(k) / kSteps;
-        list->AddRectFilled({x, corner.y}, {x + width / kSteps + 0.5f, corner.y + height},
-                            ImGui::ColorConvertFloat4ToU32({shown(c.x), shown(c.y), shown(c.z), 1}));
+        list->AddRectFilled(
+            {x, corner.y}, {x + width / kSteps + 0.5f, corner.y + height},
+            ImGui::ColorConvertFloat4ToU32({shown(c.x), shown(c.y), shown(c.z), 1}));
     }
     const std::string high = fmt::format("{:.4g}", scale.high);
     const float y = corner.y + height + theme.px(2);
@@ -192,8 +205,8 @@ bool Viewport::take_wipe(Context& context, bool hovered) {
     const PictureState& state = context.state().picture;
     if (state.wipe.empty() || !picture_) return wiping_ = false;
     const ImGuiIO& io = ImGui::GetIO();
-    const bool is_near = hovered && button_ < 0 &&
-                         std::abs(io.MousePos.x - wipe_x(state)) <= context.theme.px(5);
+    const bool is_near =
+        hovered && button_ < 0 && std::abs(io.MousePos.x - wipe_x(state)) <= context.theme.px(5);
     if (is_near && ImGui::IsMouseClicked(0)) wiping_ = true;
     if (is_near || wiping_) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (!wiping_) return false;
@@ -236,7 +249,7 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
             text =
                 "Welcome. Drop a scene here (.dae .zae .kmz .gltf .glb), or press Ctrl+P and say "
                 "open.";
-        if (load == LoadState::Loading) text = "Reading the scene";
+        if (load == LoadState::Loading) text = opening_text(context.player);
         if (load == LoadState::Ready) text = "Making the first picture";
         if (load == LoadState::Failed)
             text = "The scene could not be opened. The findings say why.";
@@ -247,9 +260,9 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
                             {at.x + extent.x + margin, at.y + extent.y + theme.px(7)},
                             IM_COL32(0, 0, 0, 150), theme.px(5));
         list->AddText(at, load == LoadState::Failed ? theme.error : theme.text, text.c_str());
-    } else if (load == LoadState::Loading) {
+    } else if (const std::string text = opening_text(context.player); !text.empty()) {
         shadowed_text(list, {corner.x + margin, corner.y + size.y - line - margin}, theme.accent,
-                      "Reading the scene");
+                      text);
     }
     if (!picture_ || !context.open("hud")) return;
     const auto times = context.player.stage_times();
@@ -258,8 +271,7 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
     const PictureState& state = context.state().picture;
     std::vector<std::pair<ImU32, std::string>> lines;
     lines.emplace_back(theme.text, fmt::format("{:.1f} ms   {}x{}   {} spp{}", last.total,
-                                               picture_->width, picture_->height,
-                                               picture_->samples,
+                                               picture_->width, picture_->height, picture_->samples,
                                                picture_->refined ? "   refined" : ""));
     if (picture_->scale < 1)
         lines.emplace_back(theme.accent,

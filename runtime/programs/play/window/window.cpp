@@ -14,6 +14,7 @@
 #include <iterator>
 #include <optional>
 
+#include "runtime/play/scene_maker.h"
 #include "runtime/play/script.h"
 #include "runtime/programs/play/ui/ui.h"
 #include "runtime/programs/play/window/batch.h"
@@ -30,6 +31,7 @@ std::atomic<uint32_t> g_wake_event{0};  // 0: there is no window
 std::atomic<bool> g_woken{false};       // an event is on its way: one is enough
 
 constexpr double kPlayTurn = 1.0 / 60;  // seconds between turns while time goes on
+constexpr double kOpeningTurn = 0.1;    // while another scene is read: its seconds are counted
 constexpr int kTurnsAfterEvent = 3;     // ImGui settles sizes in the frames after a change
 
 using Clock = std::chrono::steady_clock;
@@ -88,6 +90,7 @@ class WindowLoop {
     double patience() const {
         if (turns_ > 0) return 0;
         if (line_) return kPlayTurn;
+        if (player_.opening().step != Opening::Step::None) return kOpeningTurn;
         if (player_.state().time.playing || player_.state().camera.turntable)
             return surface_.hidden() ? 0.1 : kPlayTurn;
         return ui_->next_turn();
@@ -139,6 +142,9 @@ class WindowLoop {
                 break;
             case SDL_KEYDOWN:
                 press(event.key);
+                break;
+            case SDL_TEXTINPUT:
+                ui_->typed(event.text.text);
                 break;
             default:
                 break;
