@@ -5,9 +5,6 @@
 #include <png.h>
 #include <unistd.h>
 
-#include <ImfRgbaFile.h>
-#include <ImfStringAttribute.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -21,6 +18,7 @@
 
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/images/exr_module_p.h"
 #include "runtime/images/picture_file.h"
 #include "runtime/images/picture_rows_p.h"
 
@@ -195,24 +193,24 @@ bool with_png(const std::string& path, Image8* rows, Use use) {
     return ok;
 }
 
+std::optional<std::string> read_exr_text(const std::string& path, const std::string& key) {
+    const ExrModule& exr = exr_module();
+    if (!exr.error.empty()) return std::nullopt;
+    auto read = [&](std::string& into) {
+        return exr.kinora_exr_text(path.c_str(), key.c_str(), into.data(), into.size() + 1);
+    };
+    std::string value;
+    const int64_t length = read(value);
+    if (length < 0) return std::nullopt;
+    value.resize(size_t(length));
+    if (length > 0) read(value);
+    return value;
+}
+
 }  // namespace
 
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
-    if (has_extension(path, {".exr"})) {
-        try {
-            Imf::RgbaInputFile file(path.c_str());
-            if (!file.isComplete()) return std::nullopt;
-            // A file cut short throws where its last rows should be.
-            Imath::Box2i window = file.dataWindow();
-            std::vector<Imf::Rgba> row(size_t(window.max.x - window.min.x) + 1);
-            file.setFrameBuffer(row.data() - window.min.x, 1, 0);
-            file.readPixels(window.max.y);
-            const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
-            return text ? std::optional(text->value()) : std::nullopt;
-        } catch (const std::exception&) {
-            return std::nullopt;
-        }
-    }
+    if (has_extension(path, {".exr"})) return read_exr_text(path, key);
     std::optional<std::string> value;
     with_png(path, nullptr, [&](png_structp png, png_infop info) {
         png_textp texts = nullptr;
@@ -232,22 +230,16 @@ std::optional<Image8> read_png(const std::string& path) {
 
 std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding) {
     if (!has_extension(path, {".exr"})) return read_png(path);
-    try {
-        Imf::RgbaInputFile file(path.c_str());
-        Imath::Box2i window = file.dataWindow();
-        raytrace::Film film;
-        film.width = window.max.x - window.min.x + 1;
-        film.height = window.max.y - window.min.y + 1;
-        std::vector<Imf::Rgba> row(size_t(film.width));
-        for (int y = window.min.y; y <= window.max.y; ++y) {
-            file.setFrameBuffer(row.data() - window.min.x, 1, 0);
-            file.readPixels(y);
-            for (const Imf::Rgba& p : row) film.rgba.push_back(vec4(p.r, p.g, p.b, p.a));
-        }
-        return to_8_bit(film, encoding);
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
+    const ExrModule& exr = exr_module();
+    KinoraExrPixels pixels;
+    if (!exr.error.empty() || exr.kinora_exr_read(path.c_str(), &pixels) != 0) return std::nullopt;
+    raytrace::Film film;
+    film.width = pixels.width;
+    film.height = pixels.height;
+    film.rgba.resize(size_t(film.width) * size_t(film.height));
+    std::memcpy(film.rgba.data(), pixels.rgba, film.rgba.size() * sizeof(vec4));
+    exr.kinora_exr_free_pixels(&pixels);
+    return to_8_bit(film, encoding);
 }
 
 }  // namespace kinora
