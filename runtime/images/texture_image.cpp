@@ -13,6 +13,7 @@
 #include "runtime/base/shared_library.h"
 #include "runtime/description/memory_file.h"
 #include "runtime/images/image_io.h"
+#include "runtime/images/libpng_p.h"
 #include "runtime/images_module/images_module.h"
 
 namespace kinora {
@@ -84,6 +85,7 @@ int png_channels(const Header& header, const std::vector<uint8_t>& rgba) {
 
 std::string read_plain_png(const std::string& path, const Header& header, TextureImage& image) {
     std::optional<Image8> pixels = read_png(path);
+    if (!libpng().error.empty()) return libpng().error;
     if (!pixels) return "the PNG file is damaged";
     image.width = pixels->width;
     image.height = pixels->height;
