@@ -27,15 +27,16 @@ void report_error(void*, RTCError code, const char* text) {
     std::fprintf(stderr, "kinora: Embree: %s (%d)\n", text ? text : "", int(code));
 }
 
-#define KINORA_EMBREE_FUNCTIONS(X) \
-    X(rtcAttachGeometryByID) X(rtcCommitGeometry) X(rtcCommitScene) X(rtcDetachGeometry) \
-    X(rtcGetSceneBounds) X(rtcIntersect16) X(rtcNewDevice) X(rtcNewGeometry) \
-    X(rtcNewScene) X(rtcOccluded16) X(rtcReleaseGeometry) X(rtcReleaseScene) \
-    X(rtcSetDeviceErrorFunction) X(rtcSetGeometryBuildQuality) \
-    X(rtcSetGeometryInstancedScene) X(rtcSetGeometryIntersectFilterFunction) \
-    X(rtcSetGeometryMask) X(rtcSetGeometryTimeStepCount) X(rtcSetGeometryTransform) \
-    X(rtcSetSceneBuildQuality) X(rtcSetSceneFlags) X(rtcSetSharedGeometryBuffer) \
-    X(rtcUpdateGeometryBuffer)
+#define KINORA_EMBREE_FUNCTIONS(X)                                                          \
+    X(rtcAttachGeometryByID)                                                                \
+    X(rtcCommitGeometry) X(rtcCommitScene) X(rtcDetachGeometry) X(rtcGetSceneBounds)        \
+        X(rtcIntersect16) X(rtcNewDevice) X(rtcNewGeometry) X(rtcNewScene) X(rtcOccluded16) \
+            X(rtcReleaseGeometry) X(rtcReleaseScene) X(rtcSetDeviceErrorFunction)           \
+                X(rtcSetGeometryBuildQuality) X(rtcSetGeometryInstancedScene)               \
+                    X(rtcSetGeometryIntersectFilterFunction) X(rtcSetGeometryMask)          \
+                        X(rtcSetGeometryTimeStepCount) X(rtcSetGeometryTransform)           \
+                            X(rtcSetSceneBuildQuality) X(rtcSetSceneFlags)                  \
+                                X(rtcSetSharedGeometryBuffer) X(rtcUpdateGeometryBuffer)
 
 // Embree's functions: set when the device is made, before anything else of Embree is.
 struct Embree {
@@ -208,10 +209,11 @@ void choose_hit(const RTCFilterFunctionNArguments* args) {
 
 void set_buffers(RTCGeometry g, std::span<const vec4> positions,
                  std::span<const uint32_t> triangles) {
-    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
-                               sizeof(vec4), positions.size());
-    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0,
-                               3 * sizeof(uint32_t), triangles.size() / 3);
+    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                      positions.data(), 0, sizeof(vec4), positions.size());
+    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                      triangles.data(), 0, 3 * sizeof(uint32_t),
+                                      triangles.size() / 3);
 }
 
 void load_rays(const RayPacket16& in, RTCRay16& out) {
@@ -284,7 +286,8 @@ EmbreeMesh::EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t
     RTCGeometry g = embree.rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
     geometry_ = g;
     set_buffers(g, positions, triangles);
-    embree.rtcSetGeometryBuildQuality(g, kQualities[int(quality)]);  // only heard before the first commit
+    embree.rtcSetGeometryBuildQuality(
+        g, kQualities[int(quality)]);  // only heard before the first commit
     embree.rtcSetGeometryMask(g, mask);
     if (filtered) embree.rtcSetGeometryIntersectFilterFunction(g, choose_hit);
     embree.rtcCommitGeometry(g);
@@ -300,8 +303,9 @@ void EmbreeMesh::vertices_moved() {
 }
 
 void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
-    embree.rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               positions.data(), 0, sizeof(vec4), positions.size());
+    embree.rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0,
+                                      RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(vec4),
+                                      positions.size());
     embree.rtcCommitGeometry(geometry(geometry_));
 }
 
@@ -318,7 +322,8 @@ EmbreeInstance::~EmbreeInstance() {
 }
 
 void EmbreeInstance::set_matrix(const float columns[12]) {
-    embree.rtcSetGeometryTransform(geometry(geometry_), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    embree.rtcSetGeometryTransform(geometry(geometry_), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                                   columns);
     embree.rtcCommitGeometry(geometry(geometry_));
 }
 

@@ -1,5 +1,5 @@
-// raytrace/ray_tracer.h: Embree's library, which is opened when the first Accel is updated or by the
-// first of these calls.
+// raytrace/ray_tracer.h: Embree's library, which is opened when the first Accel is updated or by
+// the first of these calls.
 #pragma once
 
 #include <string>

@@ -152,7 +152,8 @@ class Unpacking {
 bool Unpacking::is_link(zip_uint64_t index) const {
     zip_uint8_t system = 0;
     zip_uint32_t attributes = 0;
-    if (zip().zip_file_get_external_attributes(zip_, index, 0, &system, &attributes) != 0) return false;
+    if (zip().zip_file_get_external_attributes(zip_, index, 0, &system, &attributes) != 0)
+        return false;
     mode_t mode = mode_t(attributes >> 16);
     return system == ZIP_OPSYS_UNIX && (mode & S_IFMT) != 0 && !S_ISREG(mode) && !S_ISDIR(mode);
 }

@@ -12,7 +12,7 @@ namespace {
 // program, twelve pages of it.
 #define GROUP(name, versions, content)
 #define ELEMENT(type, versions, use, attributes, content, text) \
-    #type "\0" attributes "\0" content "\0" text "\0"
+#type "\0" attributes "\0" content "\0" text "\0"
 constexpr char kElementTexts[] =
 #include "collada/generated/elements.def"
     ;

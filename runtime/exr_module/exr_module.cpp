@@ -95,7 +95,8 @@ void KinoraExrWriter::begin(const KinoraExrPicture& picture) {
         return;
     }
     Imf::ChannelList& channels = header.channels();
-    for (const char* name : kColors) channels.insert(name, Imf::Channel(half ? Imf::HALF : Imf::FLOAT));
+    for (const char* name : kColors)
+        channels.insert(name, Imf::Channel(half ? Imf::HALF : Imf::FLOAT));
     for (int i = 0; i < picture.planes; ++i) {
         // A parameter that is called like a channel of the picture is R.V there.
         std::string name = picture.plane_names[i];
@@ -134,7 +135,8 @@ void KinoraExrWriter::write_all(int top, int rows, const float* rgba, const floa
         else
             add(kColors[k], Imf::FLOAT, rgba + k, 4 * sizeof(float));
     for (size_t k = 0; k < plane_channels.size(); ++k)
-        if (!plane_channels[k].empty()) add(plane_channels[k], Imf::FLOAT, planes[k], sizeof(float));
+        if (!plane_channels[k].empty())
+            add(plane_channels[k], Imf::FLOAT, planes[k], sizeof(float));
     all->setFrameBuffer(buffer);
     all->writePixels(rows);
 }

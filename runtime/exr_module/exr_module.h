@@ -1,5 +1,5 @@
-// runtime/exr_module/exr_module.h: the C interface of libkinora_exr.so, which alone links OpenEXR and
-// is opened when a picture is first written or read as EXR.
+// runtime/exr_module/exr_module.h: the C interface of libkinora_exr.so, which alone links OpenEXR
+// and is opened when a picture is first written or read as EXR.
 #pragma once
 
 #include <algorithm>

@@ -6,9 +6,10 @@
 
 namespace kinora {
 
-#define KINORA_EXR_FUNCTIONS(X)                                       \
-    X(kinora_exr_begin) X(kinora_exr_write) X(kinora_exr_end)         \
-    X(kinora_exr_text) X(kinora_exr_read) X(kinora_exr_free_pixels)
+#define KINORA_EXR_FUNCTIONS(X)                                                 \
+    X(kinora_exr_begin)                                                         \
+    X(kinora_exr_write) X(kinora_exr_end) X(kinora_exr_text) X(kinora_exr_read) \
+        X(kinora_exr_free_pixels)
 
 struct ExrModule {
     KINORA_EXR_FUNCTIONS(KINORA_LIBRARY_MEMBER)

@@ -49,8 +49,8 @@ class ExrRowsToFile final : public RowWriter {
         std::vector<const float*> planes;
         for (const raytrace::AovPlane& plane : band.aovs) planes.push_back(plane.values.data());
         KinoraExrError error{};
-        const int failed = exr_module().kinora_exr_write(
-            writer_, band.top, band.height, &band.rgba[0].x, planes.data(), &error);
+        const int failed = exr_module().kinora_exr_write(writer_, band.top, band.height,
+                                                         &band.rgba[0].x, planes.data(), &error);
         return told(failed, error, number);
     }
 

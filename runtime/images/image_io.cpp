@@ -184,8 +184,8 @@ bool with_png(const std::string& path, Image8* rows, Use use) {
     OpenFile file = open_regular_file(path);
     if (!libpng().error.empty() || !file || !png_has_end(file.get())) return false;
     PngError error;
-    png_structp png =
-        libpng().png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error, on_png_warning);
+    png_structp png = libpng().png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error,
+                                                      on_png_warning);
     png_infop info = libpng().png_create_info_struct(png);
     bool ok = png_read(file.get(), png, info, rows);
     if (ok) use(png, info);

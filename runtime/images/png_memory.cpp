@@ -27,7 +27,8 @@ std::vector<uint8_t> encode_png(const Image8& image) {
     if (!libpng().png_image_write_to_memory(&png, nullptr, &size, 0, image.rgba.data(), 0, nullptr))
         return bytes;
     bytes.resize(size);
-    if (!libpng().png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr))
+    if (!libpng().png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgba.data(), 0,
+                                            nullptr))
         bytes.clear();
     return bytes;
 }
@@ -66,7 +67,8 @@ std::optional<Image8> decode_png(std::span<const uint8_t> bytes) {
     if (!libpng().error.empty()) return std::nullopt;
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    if (!libpng().png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) return std::nullopt;
+    if (!libpng().png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+        return std::nullopt;
     png.format = PNG_FORMAT_RGBA;
     Image8 image{int(png.width), int(png.height), {}};
     const bool fits = uint64_t(png.width) * png.height <= kMostPixels;

@@ -29,8 +29,9 @@ bool begin_png_rows(png_structp png, png_infop info, std::FILE* file, int width,
     if (setjmp(*png_jump(png))) return false;
     libpng().png_init_io(png, file);
     libpng().png_set_compression_level(png, 3);
-    libpng().png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), 8, PNG_COLOR_TYPE_RGBA,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    libpng().png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), 8,
+                          PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                          PNG_FILTER_TYPE_DEFAULT);
     libpng().png_set_text(png, info, texts, text_count);
     libpng().png_write_info(png, info);
     return true;
@@ -51,7 +52,8 @@ class PngRowsToFile final : public PngRows {
   public:
     PngRowsToFile(OpenFile file, ColorEncoding encoding)
         : file_(std::move(file)), encoding_(encoding) {
-        png_ = libpng().png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, on_png_fault, on_png_note);
+        png_ = libpng().png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, on_png_fault,
+                                                on_png_note);
         info_ = libpng().png_create_info_struct(png_);
     }
     ~PngRowsToFile() override { libpng().png_destroy_write_struct(&png_, &info_); }

@@ -23,8 +23,7 @@ constexpr Machine kMachines[] = {{"avx2", CS_ARCH_X86, CS_MODE_64},
                                  {"avx512", CS_ARCH_X86, CS_MODE_64},
                                  {"neon", CS_ARCH_ARM64, CS_MODE_LITTLE_ENDIAN}};
 
-#define KINORA_CAPSTONE_FUNCTIONS(X) \
-    X(cs_open) X(cs_option) X(cs_disasm) X(cs_free) X(cs_close)
+#define KINORA_CAPSTONE_FUNCTIONS(X) X(cs_open) X(cs_option) X(cs_disasm) X(cs_free) X(cs_close)
 
 // Capstone's functions, or why there are none. Its tables are large: it is opened when needed.
 struct Capstone {
@@ -48,7 +47,8 @@ class Disassembler {
   public:
     explicit Disassembler(const Machine& machine) {
         open_ = capstone().cs_open(machine.arch, machine.mode, &handle_) == CS_ERR_OK;
-        if (open_) capstone().cs_option(handle_, CS_OPT_SKIPDATA, CS_OPT_ON);  // what it does not know
+        if (open_)
+            capstone().cs_option(handle_, CS_OPT_SKIPDATA, CS_OPT_ON);  // what it does not know
     }
     ~Disassembler() {
         if (open_) capstone().cs_close(&handle_);
@@ -59,8 +59,8 @@ class Disassembler {
     void append(std::span<const std::byte> code, size_t offset,
                 std::vector<std::string>& lines) const {
         cs_insn* list = nullptr;
-        size_t count = capstone().cs_disasm(
-            handle_, reinterpret_cast<const uint8_t*>(code.data()), code.size(), offset, 0, &list);
+        size_t count = capstone().cs_disasm(handle_, reinterpret_cast<const uint8_t*>(code.data()),
+                                            code.size(), offset, 0, &list);
         for (size_t k = 0; k < count; ++k)
             lines.push_back(
                 fmt::format("{:04x}  {} {}", list[k].address, list[k].mnemonic, list[k].op_str));

@@ -154,7 +154,7 @@ class Tree {
             std::string name, value;
             bool plain = a.name.find(':') == a.name.npos;
             xml().xmlNewNsProp(at, plain ? nullptr : find(at, a.name), chars(local(a.name), name),
-                         chars(a.value, value));
+                               chars(a.value, value));
         }
         if (!element.text.empty()) {
             std::string text;
