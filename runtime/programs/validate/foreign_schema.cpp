@@ -1,4 +1,4 @@
-// runtime/programs/validate/foreign_schema.cpp: the one file that knows libxml2. Elements are
+// runtime/programs/validate/foreign_schema.cpp: elements of other makers by libxml2. Elements are
 // handed over as a tree, not as text, so that each complaint leads back to its element.
 #include "runtime/programs/validate/foreign_schema.h"
 
