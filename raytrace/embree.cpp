@@ -277,13 +277,14 @@ const std::string& ray_tracer_error() {
     return the_device().error;
 }
 
-void open_ray_tracer_early() {
-    static std::jthread opening([] { the_device(); });
+std::jthread open_ray_tracer_early() {
+    return std::jthread([] { the_device(); });
 }
 
 EmbreeMesh::EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t> triangles,
                        BuildQuality quality, uint32_t mask, bool filtered) {
-    RTCGeometry g = embree.rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const RTCDevice with = device();  // first: it sets the functions
+    RTCGeometry g = embree.rtcNewGeometry(with, RTC_GEOMETRY_TYPE_TRIANGLE);
     geometry_ = g;
     set_buffers(g, positions, triangles);
     embree.rtcSetGeometryBuildQuality(
@@ -310,7 +311,8 @@ void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
 }
 
 EmbreeInstance::EmbreeInstance(const EmbreeScene& of, uint32_t mask) {
-    RTCGeometry g = embree.rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    const RTCDevice with = device();  // first: it sets the functions
+    RTCGeometry g = embree.rtcNewGeometry(with, RTC_GEOMETRY_TYPE_INSTANCE);
     geometry_ = g;
     embree.rtcSetGeometryInstancedScene(g, scene(of.scene_));
     embree.rtcSetGeometryTimeStepCount(g, 1);
@@ -328,7 +330,8 @@ void EmbreeInstance::set_matrix(const float columns[12]) {
 }
 
 EmbreeScene::EmbreeScene(bool dynamic, bool robust) {
-    RTCScene s = embree.rtcNewScene(device());
+    const RTCDevice with = device();
+    RTCScene s = embree.rtcNewScene(with);
     scene_ = s;
     // Never HIGH: it aborts on extreme meshes in Debian's build (docs/numerics.md#geometry).
     embree.rtcSetSceneBuildQuality(s, dynamic ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <thread>
 
 namespace kinora::raytrace {
 
@@ -10,7 +11,8 @@ namespace kinora::raytrace {
 // only where it is "".
 const std::string& ray_tracer_error();
 
-// Opens the library on a thread of its own, while the caller reads a scene; who needs it waits.
-void open_ray_tracer_early();
+// Opens the library on a thread of its own, while the caller reads a scene; who needs it waits. The
+// thread must have ended before the program does.
+std::jthread open_ray_tracer_early();
 
 }  // namespace kinora::raytrace

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "raytrace/ray_tracer.h"
 #include "runtime/base/parallel.h"
 #include "runtime/build/build_scene.h"
 #include "runtime/build/defaults.h"
@@ -144,7 +143,6 @@ int64_t first_frame(FrameRate rate, double start) {
 
 std::optional<ImportedScene> import_requested(const SceneRequest& request,
                                               Diagnostics& diagnostics) {
-    raytrace::open_ray_tracer_early();
     check_target(request, diagnostics);
     auto description = import_scene(request.scene, import_options(request), diagnostics);
     if (!description) {
