@@ -27,16 +27,16 @@ void report_error(void*, RTCError code, const char* text) {
     std::fprintf(stderr, "kinora: Embree: %s (%d)\n", text ? text : "", int(code));
 }
 
-#define KINORA_EMBREE_FUNCTIONS(X)                                                          \
-    X(rtcAttachGeometryByID)                                                                \
-    X(rtcCommitGeometry) X(rtcCommitScene) X(rtcDetachGeometry) X(rtcGetSceneBounds)        \
-        X(rtcIntersect16) X(rtcNewDevice) X(rtcNewGeometry) X(rtcNewScene) X(rtcOccluded16) \
-            X(rtcReleaseGeometry) X(rtcReleaseScene) X(rtcSetDeviceErrorFunction)           \
-                X(rtcSetGeometryBuildQuality) X(rtcSetGeometryInstancedScene)               \
-                    X(rtcSetGeometryIntersectFilterFunction) X(rtcSetGeometryMask)          \
-                        X(rtcSetGeometryTimeStepCount) X(rtcSetGeometryTransform)           \
-                            X(rtcSetSceneBuildQuality) X(rtcSetSceneFlags)                  \
-                                X(rtcSetSharedGeometryBuffer) X(rtcUpdateGeometryBuffer)
+#define KINORA_EMBREE_FUNCTIONS(X)                                                                 \
+    X(rtcAttachGeometryByID)                                                                       \
+    X(rtcCommitGeometry)                                                                           \
+    X(rtcCommitScene) X(rtcDetachGeometry) X(rtcGetSceneBounds) X(rtcIntersect16) X(rtcNewDevice)  \
+        X(rtcNewGeometry) X(rtcNewScene) X(rtcOccluded16) X(rtcReleaseGeometry) X(rtcReleaseScene) \
+            X(rtcSetDeviceErrorFunction) X(rtcSetGeometryBuildQuality)                             \
+                X(rtcSetGeometryInstancedScene) X(rtcSetGeometryIntersectFilterFunction)           \
+                    X(rtcSetGeometryMask) X(rtcSetGeometryTimeStepCount)                           \
+                        X(rtcSetGeometryTransform) X(rtcSetSceneBuildQuality) X(rtcSetSceneFlags)  \
+                            X(rtcSetSharedGeometryBuffer) X(rtcUpdateGeometryBuffer)
 
 // Embree's functions: set when the device is made, before anything else of Embree is.
 struct Embree {
