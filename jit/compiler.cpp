@@ -1,6 +1,7 @@
 // jit/compiler.cpp: passes, emission and the cache of kernels.
 #include "jit/compiler.h"
 
+#define XXH_INLINE_ALL  // one call is not worth a library at each start
 #include <xxhash.h>
 
 #include <chrono>

@@ -5,7 +5,6 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zip.h>
 
 #include <array>
 #include <cerrno>
@@ -16,6 +15,7 @@
 #include <mutex>
 
 #include "collada/document/findings.h"
+#include "collada/document/libzip_p.h"
 #include "runtime/base/display_path.h"
 #include "runtime/base/regular_file.h"
 
@@ -127,7 +127,7 @@ class Unpacking {
     Unpacking(const std::string& path, const ArchiveLimits& limits, Diagnostics& diag)
         : path_(path), limits_(limits), diag_(diag) {}
     ~Unpacking() {
-        if (zip_) zip_discard(zip_);
+        if (zip_) zip().zip_discard(zip_);
     }
 
     std::optional<Archive> run(zip_source_t* source, zip_error_t& error);
@@ -152,7 +152,8 @@ class Unpacking {
 bool Unpacking::is_link(zip_uint64_t index) const {
     zip_uint8_t system = 0;
     zip_uint32_t attributes = 0;
-    if (zip_file_get_external_attributes(zip_, index, 0, &system, &attributes) != 0) return false;
+    if (zip().zip_file_get_external_attributes(zip_, index, 0, &system, &attributes) != 0)
+        return false;
     mode_t mode = mode_t(attributes >> 16);
     return system == ZIP_OPSYS_UNIX && (mode & S_IFMT) != 0 && !S_ISREG(mode) && !S_ISDIR(mode);
 }
@@ -169,8 +170,8 @@ bool Unpacking::copy(zip_file_t* from, const std::string& name, const std::strin
     std::array<char, 1 << 16> buffer;
     std::string refused, left_out;
     for (;;) {
-        zip_int64_t got = zip_fread(from, buffer.data(), buffer.size());
-        if (got < 0) left_out = zip_file_strerror(from);
+        zip_int64_t got = zip().zip_fread(from, buffer.data(), buffer.size());
+        if (got < 0) left_out = zip().zip_file_strerror(from);
         if (got <= 0) break;
         unpacked_ += uint64_t(got);
         if (unpacked_ > limits_.unpacked_bytes)
@@ -194,10 +195,10 @@ bool Unpacking::copy(zip_file_t* from, const std::string& name, const std::strin
 
 bool Unpacking::unpack(zip_uint64_t index) {
     zip_stat_t stat;
-    zip_stat_init(&stat);
-    if (zip_stat_index(zip_, index, 0, &stat) != 0 || !stat.name) {
+    zip().zip_stat_init(&stat);
+    if (zip().zip_stat_index(zip_, index, 0, &stat) != 0 || !stat.name) {
         diag_.report(Code::ARCHIVE_MEMBER, Location{}, fmt::format("{}!{}", path_, index),
-                     std::string(zip_strerror(zip_)));
+                     std::string(zip().zip_strerror(zip_)));
         return true;
     }
     std::string_view raw = stat.name;
@@ -219,13 +220,13 @@ bool Unpacking::unpack(zip_uint64_t index) {
         return true;
     }
     if (folder) return true;
-    zip_file_t* from = zip_fopen_index(zip_, index, 0);
+    zip_file_t* from = zip().zip_fopen_index(zip_, index, 0);
     if (!from) {
-        diag_.report(Code::ARCHIVE_MEMBER, Location{}, name, std::string(zip_strerror(zip_)));
+        diag_.report(Code::ARCHIVE_MEMBER, Location{}, name, std::string(zip().zip_strerror(zip_)));
         return true;
     }
     bool go_on = copy(from, name, to);
-    zip_fclose(from);
+    zip().zip_fclose(from);
     if (!go_on || !fs::exists(to, error)) return go_on;
     if (stat.valid & ZIP_STAT_MTIME) {  // so that a picture's fingerprint is the archive's own
         timespec times[2] = {{stat.mtime, 0}, {stat.mtime, 0}};
@@ -236,17 +237,17 @@ bool Unpacking::unpack(zip_uint64_t index) {
 }
 
 std::optional<Archive> Unpacking::run(zip_source_t* source, zip_error_t& error) {
-    if (source) zip_ = zip_open_from_source(source, ZIP_RDONLY, &error);
+    if (source) zip_ = zip().zip_open_from_source(source, ZIP_RDONLY, &error);
     if (!zip_) {
-        fail(Code::ARCHIVE_OPEN, zip_error_strerror(&error));
-        if (source) zip_source_free(source);
+        fail(Code::ARCHIVE_OPEN, zip().zip_error_strerror(&error));
+        if (source) zip().zip_source_free(source);
         return std::nullopt;
     }
     zip_stat_t stat;
-    zip_stat_init(&stat);
-    if (zip_source_stat(source, &stat) == 0 && (stat.valid & ZIP_STAT_SIZE))
+    zip().zip_stat_init(&stat);
+    if (zip().zip_source_stat(source, &stat) == 0 && (stat.valid & ZIP_STAT_SIZE))
         archive_bytes_ = stat.size;
-    zip_uint64_t count = zip_uint64_t(std::max<zip_int64_t>(zip_get_num_entries(zip_, 0), 0));
+    zip_uint64_t count = zip_uint64_t(std::max<zip_int64_t>(zip().zip_get_num_entries(zip_, 0), 0));
     if (count > limits_.members) {
         fail(Code::ARCHIVE_LIMIT,
              fmt::format("it has {} members, the limit is {}", count, limits_.members));
@@ -264,26 +265,35 @@ std::optional<Archive> Unpacking::run(zip_source_t* source, zip_error_t& error) 
     return std::move(archive_);
 }
 
+// Unpacks the archive that `open_source` opens.
+template <class OpenSource>
+std::optional<Archive> unpack_source(const std::string& path, const ArchiveLimits& limits,
+                                     Diagnostics& diag, OpenSource&& open_source) {
+    if (!zip().error.empty()) {
+        diag.report(Code::ARCHIVE_OPEN, Location{}, path, zip().error);
+        return std::nullopt;
+    }
+    zip_error_t error;
+    zip().zip_error_init(&error);
+    auto archive = Unpacking(path, limits, diag).run(open_source(error), error);
+    zip().zip_error_fini(&error);
+    return archive;
+}
+
 }  // namespace
 
 std::optional<Archive> unpack_archive(const std::string& path, const ArchiveLimits& limits,
                                       Diagnostics& diag) {
-    zip_error_t error;
-    zip_error_init(&error);
-    auto archive = Unpacking(path, limits, diag)
-                       .run(zip_source_file_create(path.c_str(), 0, -1, &error), error);
-    zip_error_fini(&error);
-    return archive;
+    return unpack_source(path, limits, diag, [&](zip_error_t& error) {
+        return zip().zip_source_file_create(path.c_str(), 0, -1, &error);
+    });
 }
 
 std::optional<Archive> unpack_archive_bytes(const std::string& path, std::string_view bytes,
                                             const ArchiveLimits& limits, Diagnostics& diag) {
-    zip_error_t error;
-    zip_error_init(&error);
-    auto archive = Unpacking(path, limits, diag)
-                       .run(zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error), error);
-    zip_error_fini(&error);
-    return archive;
+    return unpack_source(path, limits, diag, [&](zip_error_t& error) {
+        return zip().zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    });
 }
 
 }  // namespace kinora::collada

@@ -1,18 +1,54 @@
 // collada/schema/schema_rows.cpp: the element table's rows as arrays.
 #include "collada/schema/schema_rows_p.h"
 
+#include <iterator>
+#include <vector>
+
 namespace kinora::collada {
 
 namespace {
 
-#define ELEMENT(type, versions, use, attributes, content, text) \
-    {#type, Versions::versions, Use::use, attributes, content, text},
+// The rows' texts one after the other: an array of views would be relocated at each start of each
+// program, twelve pages of it.
 #define GROUP(name, versions, content)
-constexpr ElementRow kElements[] = {
+#define ELEMENT(type, versions, use, attributes, content, text) \
+#type "\0" attributes "\0" content "\0" text "\0"
+constexpr char kElementTexts[] =
+#include "collada/generated/elements.def"
+    ;
+#undef ELEMENT
+
+struct ElementKind {
+    Versions versions;
+    Use use;
+};
+#define ELEMENT(type, versions, use, attributes, content, text) {Versions::versions, Use::use},
+constexpr ElementKind kElementKinds[] = {
 #include "collada/generated/elements.def"
 };
 #undef ELEMENT
 #undef GROUP
+
+std::vector<ElementRow> make_element_rows() {
+    std::vector<ElementRow> rows;
+    rows.reserve(std::size(kElementKinds));
+    const char* at = kElementTexts;
+    auto next = [&] {
+        const std::string_view text = at;
+        at += text.size() + 1;
+        return text;
+    };
+    for (const ElementKind& kind : kElementKinds) {
+        ElementRow& row = rows.emplace_back();
+        row.type = next();
+        row.versions = kind.versions;
+        row.use = kind.use;
+        row.attributes = next();
+        row.content = next();
+        row.text = next();
+    }
+    return rows;
+}
 
 #define ELEMENT(type, versions, use, attributes, content, text)
 #define GROUP(name, versions, content) {#name, Versions::versions, content},
@@ -37,7 +73,8 @@ constexpr ContentRow kGlobals[] = {
 }  // namespace
 
 std::span<const ElementRow> element_rows() {
-    return kElements;
+    static const std::vector<ElementRow> rows = make_element_rows();
+    return rows;
 }
 
 std::span<const ContentRow> group_rows() {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "raytrace/ray_tracer.h"
 #include "runtime/base/raise_findings.h"
 #include "runtime/build/cameras.h"
 #include "runtime/build/displacement/displacement.h"
@@ -89,6 +90,10 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     displace(scene, uses, again ? &again->view : nullptr, stop, diagnostics);
     if (stopped()) return nullptr;
 
+    if (const std::string& why = raytrace::ray_tracer_error(); !why.empty()) {
+        diagnostics.report(Code::RAY_TRACER_MISSING, Location{}, why);
+        return nullptr;
+    }
     scene.baked_samplers = anim::baked(scene.description->animation, options.keys);
     set_rows(scene);
     scene.shading = std::make_unique<Shading>(scene);

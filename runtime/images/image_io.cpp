@@ -2,11 +2,7 @@
 #include "runtime/images/image_io.h"
 
 #include <fcntl.h>
-#include <png.h>
 #include <unistd.h>
-
-#include <ImfRgbaFile.h>
-#include <ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -21,6 +17,8 @@
 
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/images/exr_module_p.h"
+#include "runtime/images/libpng_p.h"
 #include "runtime/images/picture_file.h"
 #include "runtime/images/picture_rows_p.h"
 
@@ -43,10 +41,10 @@ struct PngError {
     std::string text;
 };
 void on_png_error(png_structp png, png_const_charp text) {
-    auto* error = static_cast<PngError*>(png_get_error_ptr(png));
+    auto* error = static_cast<PngError*>(libpng().png_get_error_ptr(png));
     error->number = errno;
     error->text = errno ? std::strerror(errno) : text;
-    longjmp(png_jmpbuf(png), 1);
+    longjmp(*png_jump(png), 1);
 }
 void on_png_warning(png_structp, png_const_charp) {}
 
@@ -152,21 +150,21 @@ namespace {
 
 // Reads a PNG's header, and its rows when `rows` is given.
 bool png_read(std::FILE* file, png_structp png, png_infop info, Image8* rows) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_init_io(png, file);
-    png_read_info(png, info);
+    if (setjmp(*png_jump(png))) return false;
+    libpng().png_init_io(png, file);
+    libpng().png_read_info(png, info);
     if (!rows) return true;
-    png_set_expand(png);
-    png_set_strip_16(png);
-    png_set_gray_to_rgb(png);
-    png_set_filler(png, 255, PNG_FILLER_AFTER);
-    png_read_update_info(png, info);
-    rows->width = int(png_get_image_width(png, info));
-    rows->height = int(png_get_image_height(png, info));
+    libpng().png_set_expand(png);
+    libpng().png_set_strip_16(png);
+    libpng().png_set_gray_to_rgb(png);
+    libpng().png_set_filler(png, 255, PNG_FILLER_AFTER);
+    libpng().png_read_update_info(png, info);
+    rows->width = int(libpng().png_get_image_width(png, info));
+    rows->height = int(libpng().png_get_image_height(png, info));
     rows->rgba.resize(size_t(rows->width) * size_t(rows->height) * 4);
     for (int y = 0; y < rows->height; ++y)
-        png_read_row(png, &rows->rgba[size_t(y) * size_t(rows->width) * 4], nullptr);
-    png_read_end(png, info);
+        libpng().png_read_row(png, &rows->rgba[size_t(y) * size_t(rows->width) * 4], nullptr);
+    libpng().png_read_end(png, info);
     return true;
 }
 
@@ -184,40 +182,40 @@ bool png_has_end(std::FILE* file) {
 template <class Use>
 bool with_png(const std::string& path, Image8* rows, Use use) {
     OpenFile file = open_regular_file(path);
-    if (!file || !png_has_end(file.get())) return false;
+    if (!libpng().error.empty() || !file || !png_has_end(file.get())) return false;
     PngError error;
-    png_structp png =
-        png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error, on_png_warning);
-    png_infop info = png_create_info_struct(png);
+    png_structp png = libpng().png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error,
+                                                      on_png_warning);
+    png_infop info = libpng().png_create_info_struct(png);
     bool ok = png_read(file.get(), png, info, rows);
     if (ok) use(png, info);
-    png_destroy_read_struct(&png, &info, nullptr);
+    libpng().png_destroy_read_struct(&png, &info, nullptr);
     return ok;
+}
+
+std::optional<std::string> read_exr_text(const std::string& path, const std::string& key) {
+    const ExrModule& exr = exr_module();
+    if (!exr.error.empty()) return std::nullopt;
+    auto read = [&](std::string& into) {
+        return exr.kinora_exr_text(path.c_str(), key.c_str(), into.data(), into.size() + 1);
+    };
+    std::string value;
+    const int64_t length = read(value);
+    if (length < 0) return std::nullopt;
+    value.resize(size_t(length));
+    if (length > 0) read(value);
+    return value;
 }
 
 }  // namespace
 
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
-    if (has_extension(path, {".exr"})) {
-        try {
-            Imf::RgbaInputFile file(path.c_str());
-            if (!file.isComplete()) return std::nullopt;
-            // A file cut short throws where its last rows should be.
-            Imath::Box2i window = file.dataWindow();
-            std::vector<Imf::Rgba> row(size_t(window.max.x - window.min.x) + 1);
-            file.setFrameBuffer(row.data() - window.min.x, 1, 0);
-            file.readPixels(window.max.y);
-            const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(key);
-            return text ? std::optional(text->value()) : std::nullopt;
-        } catch (const std::exception&) {
-            return std::nullopt;
-        }
-    }
+    if (has_extension(path, {".exr"})) return read_exr_text(path, key);
     std::optional<std::string> value;
     with_png(path, nullptr, [&](png_structp png, png_infop info) {
         png_textp texts = nullptr;
         int count = 0;
-        png_get_text(png, info, &texts, &count);
+        libpng().png_get_text(png, info, &texts, &count);
         for (int i = 0; i < count; ++i)
             if (key == texts[i].key) value = texts[i].text;
     });
@@ -232,22 +230,16 @@ std::optional<Image8> read_png(const std::string& path) {
 
 std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding) {
     if (!has_extension(path, {".exr"})) return read_png(path);
-    try {
-        Imf::RgbaInputFile file(path.c_str());
-        Imath::Box2i window = file.dataWindow();
-        raytrace::Film film;
-        film.width = window.max.x - window.min.x + 1;
-        film.height = window.max.y - window.min.y + 1;
-        std::vector<Imf::Rgba> row(size_t(film.width));
-        for (int y = window.min.y; y <= window.max.y; ++y) {
-            file.setFrameBuffer(row.data() - window.min.x, 1, 0);
-            file.readPixels(y);
-            for (const Imf::Rgba& p : row) film.rgba.push_back(vec4(p.r, p.g, p.b, p.a));
-        }
-        return to_8_bit(film, encoding);
-    } catch (const std::exception&) {
-        return std::nullopt;
-    }
+    const ExrModule& exr = exr_module();
+    KinoraExrPixels pixels;
+    if (!exr.error.empty() || exr.kinora_exr_read(path.c_str(), &pixels) != 0) return std::nullopt;
+    raytrace::Film film;
+    film.width = pixels.width;
+    film.height = pixels.height;
+    film.rgba.resize(size_t(film.width) * size_t(film.height));
+    std::memcpy(film.rgba.data(), pixels.rgba, film.rgba.size() * sizeof(vec4));
+    exr.kinora_exr_free_pixels(&pixels);
+    return to_8_bit(film, encoding);
 }
 
 }  // namespace kinora

@@ -1,9 +1,9 @@
 // runtime/images/png_memory.cpp: PNG by libpng's simple interface, and base 64.
 #include "runtime/images/png_memory.h"
 
-#include <png.h>
-
 #include <algorithm>
+
+#include "runtime/images/libpng_p.h"
 
 namespace kinora {
 
@@ -16,6 +16,7 @@ constexpr uint64_t kMostPixels = uint64_t(1) << 28;
 }  // namespace
 
 std::vector<uint8_t> encode_png(const Image8& image) {
+    if (!libpng().error.empty()) return {};
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     png.width = png_uint_32(image.width);
@@ -23,10 +24,11 @@ std::vector<uint8_t> encode_png(const Image8& image) {
     png.format = PNG_FORMAT_RGBA;
     png_alloc_size_t size = 0;
     std::vector<uint8_t> bytes;
-    if (!png_image_write_to_memory(&png, nullptr, &size, 0, image.rgba.data(), 0, nullptr))
+    if (!libpng().png_image_write_to_memory(&png, nullptr, &size, 0, image.rgba.data(), 0, nullptr))
         return bytes;
     bytes.resize(size);
-    if (!png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr))
+    if (!libpng().png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgba.data(), 0,
+                                            nullptr))
         bytes.clear();
     return bytes;
 }
@@ -62,15 +64,17 @@ std::optional<std::vector<uint8_t>> from_base64(std::string_view text) {
 }
 
 std::optional<Image8> decode_png(std::span<const uint8_t> bytes) {
+    if (!libpng().error.empty()) return std::nullopt;
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) return std::nullopt;
+    if (!libpng().png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+        return std::nullopt;
     png.format = PNG_FORMAT_RGBA;
     Image8 image{int(png.width), int(png.height), {}};
     const bool fits = uint64_t(png.width) * png.height <= kMostPixels;
     if (fits) image.rgba.resize(PNG_IMAGE_SIZE(png));
-    if (!fits || !png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) {
-        png_image_free(&png);
+    if (!fits || !libpng().png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr)) {
+        libpng().png_image_free(&png);
         return std::nullopt;
     }
     return image;

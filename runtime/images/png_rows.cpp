@@ -1,10 +1,9 @@
 // runtime/images/png_rows.cpp: rows of a PNG, by libpng.
-#include <png.h>
-
 #include <cerrno>
 #include <cstring>
 
 #include "runtime/base/regular_file.h"
+#include "runtime/images/libpng_p.h"
 #include "runtime/images/picture_rows_p.h"
 
 namespace kinora {
@@ -17,34 +16,35 @@ struct PngFault {
     std::string text;
 };
 void on_png_fault(png_structp png, png_const_charp text) {
-    auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
+    auto* fault = static_cast<PngFault*>(libpng().png_get_error_ptr(png));
     fault->number = errno;
     fault->text = errno ? std::strerror(errno) : text;
-    longjmp(png_jmpbuf(png), 1);
+    longjmp(*png_jump(png), 1);
 }
 void on_png_note(png_structp, png_const_charp) {}
 
 // libpng's part, without objects whose destructors a longjmp would skip.
 bool begin_png_rows(png_structp png, png_infop info, std::FILE* file, int width, int height,
                     png_text* texts, int text_count) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_init_io(png, file);
-    png_set_compression_level(png, 3);
-    png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), 8, PNG_COLOR_TYPE_RGBA,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_text(png, info, texts, text_count);
-    png_write_info(png, info);
+    if (setjmp(*png_jump(png))) return false;
+    libpng().png_init_io(png, file);
+    libpng().png_set_compression_level(png, 3);
+    libpng().png_set_IHDR(png, info, png_uint_32(width), png_uint_32(height), 8,
+                          PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                          PNG_FILTER_TYPE_DEFAULT);
+    libpng().png_set_text(png, info, texts, text_count);
+    libpng().png_write_info(png, info);
     return true;
 }
 bool put_png_rows(png_structp png, const Image8& image) {
-    if (setjmp(png_jmpbuf(png))) return false;
+    if (setjmp(*png_jump(png))) return false;
     for (int y = 0; y < image.height; ++y)
-        png_write_row(png, &image.rgba[size_t(y) * size_t(image.width) * 4]);
+        libpng().png_write_row(png, &image.rgba[size_t(y) * size_t(image.width) * 4]);
     return true;
 }
 bool end_png_rows(png_structp png) {
-    if (setjmp(png_jmpbuf(png))) return false;
-    png_write_end(png, nullptr);
+    if (setjmp(*png_jump(png))) return false;
+    libpng().png_write_end(png, nullptr);
     return true;
 }
 
@@ -52,10 +52,11 @@ class PngRowsToFile final : public PngRows {
   public:
     PngRowsToFile(OpenFile file, ColorEncoding encoding)
         : file_(std::move(file)), encoding_(encoding) {
-        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, on_png_fault, on_png_note);
-        info_ = png_create_info_struct(png_);
+        png_ = libpng().png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, on_png_fault,
+                                                on_png_note);
+        info_ = libpng().png_create_info_struct(png_);
     }
-    ~PngRowsToFile() override { png_destroy_write_struct(&png_, &info_); }
+    ~PngRowsToFile() override { libpng().png_destroy_write_struct(&png_, &info_); }
 
     std::string begin(int width, int height, const ImageTexts& texts, int& number) {
         std::vector<png_text> png_texts;
@@ -103,6 +104,8 @@ class PngRowsToFile final : public PngRows {
 std::unique_ptr<PngRows> png_rows(const std::string& path, int width, int height,
                                   ColorEncoding encoding, const ImageTexts& texts,
                                   std::string& error, int& number) {
+    error = libpng().error;
+    if (!error.empty()) return nullptr;
     errno = 0;
     OpenFile file(std::fopen(path.c_str(), "wb"));
     if (!file) {

@@ -1,55 +1,42 @@
 // runtime/images/texture_image.cpp: image files to pixels: PNG by libpng, the rest by the module.
 #include "runtime/images/texture_image.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <optional>
 
 #include "runtime/base/regular_file.h"
+#include "runtime/base/shared_library.h"
 #include "runtime/description/memory_file.h"
 #include "runtime/images/image_io.h"
+#include "runtime/images/libpng_p.h"
 #include "runtime/images_module/images_module.h"
 
 namespace kinora {
 
 namespace {
 
-// The module's functions, or why there are none.
+#define KINORA_IMAGES_FUNCTIONS(X) X(kinora_decode_image) X(kinora_free_image)
+
+// The module's functions, or why there are none. OpenImageIO does not survive being unloaded.
 struct ImagesModule {
-    decltype(&kinora_decode_image) decode = nullptr;
-    decltype(&kinora_free_image) free = nullptr;
+    KINORA_IMAGES_FUNCTIONS(KINORA_LIBRARY_MEMBER)
     std::string error;
+
+    ImagesModule() {
+        SharedLibrary library(module_path("libkinora_images.so"), "images other than PNG are read",
+                              "libopenimageio2.4");
+        KINORA_IMAGES_FUNCTIONS(KINORA_LIBRARY_BIND)
+        error = library.error();
+    }
 };
 
-// Beside the programs: BIN/../lib. It stays open: OpenImageIO does not survive being unloaded.
-ImagesModule open_module() {
-    ImagesModule module;
-    std::error_code code;
-    std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
-    std::string path =
-        (program.parent_path().parent_path() / "lib" / "libkinora_images.so").string();
-    void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle) {
-        module.decode =
-            reinterpret_cast<decltype(module.decode)>(dlsym(handle, "kinora_decode_image"));
-        module.free = reinterpret_cast<decltype(module.free)>(dlsym(handle, "kinora_free_image"));
-    }
-    if (!module.decode || !module.free) {
-        const char* error = dlerror();
-        module.error = error ? error : path + " lacks a function";
-    }
-    return module;
-}
-
 const ImagesModule& images_module() {
-    static const ImagesModule module = open_module();
+    static const ImagesModule module;
     return module;
 }
 
@@ -98,6 +85,7 @@ int png_channels(const Header& header, const std::vector<uint8_t>& rgba) {
 
 std::string read_plain_png(const std::string& path, const Header& header, TextureImage& image) {
     std::optional<Image8> pixels = read_png(path);
+    if (!libpng().error.empty()) return libpng().error;
     if (!pixels) return "the PNG file is damaged";
     image.width = pixels->width;
     image.height = pixels->height;
@@ -154,11 +142,12 @@ std::string first_line(const std::string& text) {
 
 std::string read_by_module(const std::string& path, TextureImage& image) {
     const ImagesModule& module = images_module();
-    if (!module.decode) return module.error;
+    if (!module.error.empty()) return module.error;
     KinoraImage source;
-    if (module.decode(path.c_str(), kMaxTexturePixels, &source) != 0)
+    if (module.kinora_decode_image(path.c_str(), kMaxTexturePixels, &source) != 0)
         return source.error[0] ? first_line(source.error) : "unknown format";
-    std::unique_ptr<KinoraImage, decltype(module.free)> owner(&source, module.free);
+    std::unique_ptr<KinoraImage, decltype(module.kinora_free_image)> owner(
+        &source, module.kinora_free_image);
     std::string refused = refuse_size(uint64_t(source.width), uint64_t(source.height));
     if (!refused.empty()) return refused;
     image.width = source.width;

@@ -3,12 +3,12 @@
 #include "runtime/programs/disassembly/disassembly.h"
 
 #include <capstone/capstone.h>
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <string>
 #include <string_view>
-#include <type_traits>
+
+#include "runtime/base/shared_library.h"
 
 namespace kinora {
 
@@ -23,54 +23,35 @@ constexpr Machine kMachines[] = {{"avx2", CS_ARCH_X86, CS_MODE_64},
                                  {"avx512", CS_ARCH_X86, CS_MODE_64},
                                  {"neon", CS_ARCH_ARM64, CS_MODE_LITTLE_ENDIAN}};
 
-// Capstone's functions, or why there are none. It is loaded on demand: its tables are two thirds of
-// what the dynamic linker relocates at a start of this program.
+#define KINORA_CAPSTONE_FUNCTIONS(X) X(cs_open) X(cs_option) X(cs_disasm) X(cs_free) X(cs_close)
+
+// Capstone's functions, or why there are none. Its tables are large: it is opened when needed.
 struct Capstone {
-    decltype(&cs_open) open = nullptr;
-    decltype(&cs_option) option = nullptr;
-    decltype(&cs_disasm) disassemble = nullptr;
-    decltype(&cs_free) free = nullptr;
-    decltype(&cs_close) close = nullptr;
+    KINORA_CAPSTONE_FUNCTIONS(KINORA_LIBRARY_MEMBER)
     std::string error;
+
+    Capstone() {
+        SharedLibrary library(KINORA_CAPSTONE_LIBRARY, "machine code is listed",
+                              "libcapstone4, or dump another stage");
+        KINORA_CAPSTONE_FUNCTIONS(KINORA_LIBRARY_BIND)
+        error = library.error();
+    }
 };
 
-Capstone load_capstone() {
-    Capstone capstone;
-    const std::string name = fmt::format("libcapstone.so.{}", CS_API_MAJOR);
-    void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
-    bool found = library != nullptr;
-    auto find = [&](auto& function, const char* symbol) {
-        if (!found) return;
-        function = reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, symbol));
-        found = function != nullptr;
-    };
-    find(capstone.open, "cs_open");
-    find(capstone.option, "cs_option");
-    find(capstone.disassemble, "cs_disasm");
-    find(capstone.free, "cs_free");
-    find(capstone.close, "cs_close");
-    if (found) return capstone;
-    const char* why = dlerror();
-    capstone.error = fmt::format(
-        "machine code is listed by {}, which cannot be loaded ({}); install "
-        "it, or dump another stage",
-        name, why ? why : "it lacks a function");
-    return capstone;
-}
-
 const Capstone& capstone() {
-    static const Capstone loaded = load_capstone();
+    static const Capstone loaded;
     return loaded;
 }
 
 class Disassembler {
   public:
     explicit Disassembler(const Machine& machine) {
-        open_ = capstone().open(machine.arch, machine.mode, &handle_) == CS_ERR_OK;
-        if (open_) capstone().option(handle_, CS_OPT_SKIPDATA, CS_OPT_ON);  // what it does not know
+        open_ = capstone().cs_open(machine.arch, machine.mode, &handle_) == CS_ERR_OK;
+        if (open_)
+            capstone().cs_option(handle_, CS_OPT_SKIPDATA, CS_OPT_ON);  // what it does not know
     }
     ~Disassembler() {
-        if (open_) capstone().close(&handle_);
+        if (open_) capstone().cs_close(&handle_);
     }
     Disassembler(const Disassembler&) = delete;
     Disassembler& operator=(const Disassembler&) = delete;
@@ -78,12 +59,12 @@ class Disassembler {
     void append(std::span<const std::byte> code, size_t offset,
                 std::vector<std::string>& lines) const {
         cs_insn* list = nullptr;
-        size_t count = capstone().disassemble(
-            handle_, reinterpret_cast<const uint8_t*>(code.data()), code.size(), offset, 0, &list);
+        size_t count = capstone().cs_disasm(handle_, reinterpret_cast<const uint8_t*>(code.data()),
+                                            code.size(), offset, 0, &list);
         for (size_t k = 0; k < count; ++k)
             lines.push_back(
                 fmt::format("{:04x}  {} {}", list[k].address, list[k].mnemonic, list[k].op_str));
-        if (count > 0) capstone().free(list, count);
+        if (count > 0) capstone().cs_free(list, count);
     }
     bool is_open() const { return open_; }
 

@@ -2,6 +2,7 @@
 #include "runtime/programs/render/fingerprint.h"
 
 #include <fmt/format.h>
+#define XXH_INLINE_ALL  // two calls are not worth a library at each start
 #include <xxhash.h>
 
 #include <filesystem>

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <utility>
 
+#include "raytrace/ray_tracer.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
 #include "runtime/description/findings.h"
@@ -57,6 +58,7 @@ class Render {
     }
 
     int run() {
+        const std::jthread opening = raytrace::open_ray_tracer_early();
         int code = load();
         printer_.summarize();
         if (code == kExitOk) code = printer_.exit_code(result());

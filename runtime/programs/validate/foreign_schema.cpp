@@ -1,12 +1,8 @@
-// runtime/programs/validate/foreign_schema.cpp: the one file that knows libxml2. Elements are
+// runtime/programs/validate/foreign_schema.cpp: elements of other makers by libxml2. Elements are
 // handed over as a tree, not as text, so that each complaint leads back to its element.
 #include "runtime/programs/validate/foreign_schema.h"
 
 #include <fmt/format.h>
-#include <libxml/parser.h>
-#include <libxml/tree.h>
-#include <libxml/uri.h>
-#include <libxml/xmlschemas.h>
 
 #include <filesystem>
 #include <memory>
@@ -15,6 +11,7 @@
 
 #include "collada/document/findings.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/programs/validate/libxml_p.h"
 
 namespace kinora {
 
@@ -28,10 +25,10 @@ constexpr uint32_t kMostElementBytes = 2 << 20;  // libxml2's tree takes 30 time
 constexpr int kMostMessages = 100;               // of one schema in one document
 
 struct Free {
-    void operator()(xmlDoc* doc) const { xmlFreeDoc(doc); }
-    void operator()(xmlSchema* schema) const { xmlSchemaFree(schema); }
-    void operator()(xmlSchemaParserCtxt* context) const { xmlSchemaFreeParserCtxt(context); }
-    void operator()(xmlSchemaValidCtxt* context) const { xmlSchemaFreeValidCtxt(context); }
+    void operator()(xmlDoc* doc) const { xml().xmlFreeDoc(doc); }
+    void operator()(xmlSchema* schema) const { xml().xmlSchemaFree(schema); }
+    void operator()(xmlSchemaParserCtxt* context) const { xml().xmlSchemaFreeParserCtxt(context); }
+    void operator()(xmlSchemaValidCtxt* context) const { xml().xmlSchemaFreeValidCtxt(context); }
 };
 template <class T>
 using Owned = std::unique_ptr<T, Free>;
@@ -64,16 +61,16 @@ xmlParserInput* load(const char* url, const char*, xmlParserCtxt* context) {
     std::string path = url ? url : "", text;
     if (path.starts_with("file://")) path.erase(0, 7);
     if (!read_file(path, text)) {
-        char* plain = xmlURIUnescapeString(path.c_str(), 0, nullptr);  // "my%20types.xsd"
+        char* plain = xml().xmlURIUnescapeString(path.c_str(), 0, nullptr);  // "my%20types.xsd"
         std::string unescaped = plain ? plain : "";
-        xmlFree(plain);
+        (*xml().xmlFree)(plain);
         if (unescaped.empty() || !read_file(unescaped, text)) return nullptr;
     }
     xmlParserInputBuffer* buffer =
-        xmlParserInputBufferCreateMem(text.data(), int(text.size()), XML_CHAR_ENCODING_NONE);
+        xml().xmlParserInputBufferCreateMem(text.data(), int(text.size()), XML_CHAR_ENCODING_NONE);
     if (!buffer) return nullptr;
-    xmlParserInput* input = xmlNewIOInputStream(context, buffer, XML_CHAR_ENCODING_NONE);
-    if (input) input->filename = reinterpret_cast<const char*>(xmlStrdup(chars(path)));
+    xmlParserInput* input = xml().xmlNewIOInputStream(context, buffer, XML_CHAR_ENCODING_NONE);
+    if (input) input->filename = reinterpret_cast<const char*>(xml().xmlStrdup(chars(path)));
     return input;
 }
 
@@ -82,10 +79,10 @@ void be_quiet(void*, const char*, ...) {}
 void start_libxml() {
     static std::once_flag once;
     std::call_once(once, [] {
-        xmlInitParser();
-        xmlSetExternalEntityLoader(load);
+        xml().xmlInitParser();
+        xml().xmlSetExternalEntityLoader(load);
     });
-    xmlSetGenericErrorFunc(nullptr, be_quiet);  // of this thread
+    xml().xmlSetGenericErrorFunc(nullptr, be_quiet);  // of this thread
 }
 
 std::string message_of(const xmlError& error) {
@@ -107,11 +104,11 @@ void keep_first(void* data, xmlError* error) {
 // A copy of an element as libxml2 has it; _private of each node is the element.
 class Tree {
   public:
-    Tree() : doc_(xmlNewDoc(chars(version_))) {}
+    Tree() : doc_(xml().xmlNewDoc(chars(version_))) {}
 
     xmlNode* add(const Element& element) {
         xmlNode* root = node(element);
-        xmlDocSetRootElement(doc_.get(), root);
+        xml().xmlDocSetRootElement(doc_.get(), root);
         // What it and the elements around it declare, the inner ones first.
         for (const Element* e = &element; e; e = e->parent) declare(*e, root);
         fill(element, root);
@@ -121,7 +118,7 @@ class Tree {
   private:
     static xmlNode* node(const Element& element) {
         std::string name;
-        xmlNode* made = xmlNewNode(nullptr, chars(local(element.name), name));
+        xmlNode* made = xml().xmlNewNode(nullptr, chars(local(element.name), name));
         made->_private = const_cast<Element*>(&element);
         return made;
     }
@@ -141,30 +138,30 @@ class Tree {
         for (const Attribute& a : element.attributes) {
             if (!is_declaration(a.name)) continue;
             std::string uri, name(a.name == "xmlns" ? "" : a.name.substr(6));
-            xmlNewNs(at, chars(a.value, uri), name.empty() ? nullptr : chars(name));
+            xml().xmlNewNs(at, chars(a.value, uri), name.empty() ? nullptr : chars(name));
         }
     }
     xmlNs* find(xmlNode* at, std::string_view name) {
         std::string wanted = prefix(name);
-        return xmlSearchNs(doc_.get(), at, wanted.empty() ? nullptr : chars(wanted));
+        return xml().xmlSearchNs(doc_.get(), at, wanted.empty() ? nullptr : chars(wanted));
     }
 
     void fill(const Element& element, xmlNode* at) {
         declare(element, at);
-        xmlSetNs(at, find(at, element.name));
+        xml().xmlSetNs(at, find(at, element.name));
         for (const Attribute& a : element.attributes) {
             if (is_declaration(a.name)) continue;
             std::string name, value;
             bool plain = a.name.find(':') == a.name.npos;
-            xmlNewNsProp(at, plain ? nullptr : find(at, a.name), chars(local(a.name), name),
-                         chars(a.value, value));
+            xml().xmlNewNsProp(at, plain ? nullptr : find(at, a.name), chars(local(a.name), name),
+                               chars(a.value, value));
         }
         if (!element.text.empty()) {
             std::string text;
-            xmlAddChild(at, xmlNewText(chars(element.text, text)));
+            xml().xmlAddChild(at, xml().xmlNewText(chars(element.text, text)));
         }
         for (const Element& child : element.children()) {
-            xmlNode* made = xmlAddChild(at, node(child));
+            xmlNode* made = xml().xmlAddChild(at, node(child));
             fill(child, made);  // as deep as the document may be
         }
     }
@@ -212,10 +209,10 @@ Owned<xmlSchema> read_schema(const collada::ForeignElements& what, std::string& 
     readable = &what.files;
     bytes_left = kMostSchemaBytes;
     Owned<xmlSchema> schema;
-    Owned<xmlSchemaParserCtxt> parser(xmlSchemaNewParserCtxt(what.schema.c_str()));
+    Owned<xmlSchemaParserCtxt> parser(xml().xmlSchemaNewParserCtxt(what.schema.c_str()));
     if (parser) {
-        xmlSchemaSetParserStructuredErrors(parser.get(), keep_first, &why);
-        schema.reset(xmlSchemaParse(parser.get()));
+        xml().xmlSchemaSetParserStructuredErrors(parser.get(), keep_first, &why);
+        schema.reset(xml().xmlSchemaParse(parser.get()));
     }
     readable = nullptr;
     return schema;
@@ -227,6 +224,7 @@ std::string check_foreign(const collada::ForeignElements& what) {
     // The types of schemas are made at first use, unguarded.
     static std::mutex mutex;
     std::lock_guard lock(mutex);
+    if (!xml().error.empty()) return xml().error;
     start_libxml();
     std::string why;
     Owned<xmlSchema> schema = read_schema(what, why);
@@ -235,9 +233,9 @@ std::string check_foreign(const collada::ForeignElements& what) {
         return fmt::format("their schema '{}' cannot be used: {}", name,
                            why.empty() ? "it cannot be read" : why);
     Complaints complaints{what};
-    Owned<xmlSchemaValidCtxt> validator(xmlSchemaNewValidCtxt(schema.get()));
+    Owned<xmlSchemaValidCtxt> validator(xml().xmlSchemaNewValidCtxt(schema.get()));
     if (!validator) return "not enough memory";
-    xmlSchemaSetValidStructuredErrors(validator.get(), complain, &complaints);
+    xml().xmlSchemaSetValidStructuredErrors(validator.get(), complain, &complaints);
     for (const Element* element : what.elements) {
         if (complaints.count > kMostMessages) break;
         if (element->bytes.end - element->bytes.begin > kMostElementBytes) {
@@ -245,7 +243,7 @@ std::string check_foreign(const collada::ForeignElements& what) {
             continue;
         }
         Tree tree;
-        xmlSchemaValidateOneElement(validator.get(), tree.add(*element));
+        xml().xmlSchemaValidateOneElement(validator.get(), tree.add(*element));
     }
     return why;
 }

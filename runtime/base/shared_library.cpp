@@ -1,0 +1,40 @@
+// runtime/base/shared_library.cpp: dlopen, dlsym and what their failures mean to a user.
+#include "runtime/base/shared_library.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace kinora {
+
+SharedLibrary::SharedLibrary(const std::string& file, std::string_view purpose,
+                             std::string_view package)
+    : file_(file),
+      purpose_(purpose),
+      package_(package),
+      handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    if (handle_) return;
+    const char* why = dlerror();
+    fail(why ? why : "unknown reason");
+}
+
+void* SharedLibrary::find(const char* name) {
+    if (!error_.empty()) return nullptr;
+    void* found = dlsym(handle_, name);
+    if (!found) fail(fmt::format("it lacks {}", name));
+    return found;
+}
+
+void SharedLibrary::fail(const std::string& why) {
+    error_ = fmt::format("{} by {}, which cannot be loaded ({}); install {}", purpose_,
+                         std::filesystem::path(file_).filename().string(), why, package_);
+}
+
+std::string module_path(std::string_view file) {
+    std::error_code code;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
+    return (program.parent_path().parent_path() / "lib" / file).string();
+}
+
+}  // namespace kinora
