@@ -347,7 +347,7 @@ class DumpBenchManual(ProgramTest):
 
 
 def little_memory():
-    resource.setrlimit(resource.RLIMIT_AS, (300_000_000, 300_000_000))
+    resource.setrlimit(resource.RLIMIT_AS, (200_000_000, 200_000_000))
 
 
 class Limits(ProgramTest):
