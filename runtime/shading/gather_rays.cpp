@@ -2,7 +2,6 @@
 // shaded as grids, the results kept as records that the statement's loop replays
 // (docs/decisions.md#lights-run-once).
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -128,6 +127,10 @@ RayCounts count_rays(Grid& grid, const Lanes& lanes, int flags, bool shoots) {
         counts.most = std::max(counts.most, n);
     }
     return counts;
+}
+
+int flags_of(const Lanes& lanes) {  // the same for all
+    return lanes.integer(Row::Flags, lanes.first());
 }
 
 int record_width(std::span<const GatherResult> results) {
@@ -256,14 +259,43 @@ void fill_geometry(std::span<const GatherResult> results, std::span<float* const
 
 }  // namespace
 
-// The rays of one batch: what they meet goes into their records.
-struct GatherRays::Job {
-    Grid& grid;
-    std::span<const GatherResult> results;
-    Records& records;
-    std::span<const uint8_t> lane_of;
-    std::span<const uint32_t> sample_of;
-    int32_t label;
+// One call of the service: its rays are made in batches, shot, and what they meet goes into its
+// records.
+class GatherRays::Call {
+  public:
+    Call(GatherRays& all, Grid& grid, const Lanes& lanes, const RayCounts& counts,
+         std::span<const GatherResult> results, Records& records);
+    // `shoots`: whether there are rays at all, or their facts alone.
+    void run(bool shoots);
+
+  private:
+    void mark_absent();
+    void set_lanes();
+    void add_rays_of(int lane);
+    // The rays that wait, up to the `end`-th, are made; those before are.
+    void make(size_t end);
+    // The sample that waits last, in a direction of its own.
+    void make_last_along(int lane, uint32_t k, vec3 direction);
+    void flush();
+    // Of the hits: what the statement's results take from them.
+    std::span<float*> columns_of(const raytrace::HitBatch& hits, Arena& arena);
+    void shade();
+
+    GatherRays& all_;
+    Grid& grid_;
+    const Lanes& lanes_;
+    const RayCounts& counts_;
+    std::span<const GatherResult> results_;
+    Records& records_;
+    std::span<const RayColumn> of_ray_;
+    bool weighs_;  // by solid angles; else all directions may count alike, and stay even
+    bool shoots_ = false;
+    NestedWavefront nested_;
+    LaneRays made_;
+    uint8_t lane_of_[kGridPoints];
+    uint32_t sample_of_[kGridPoints];
+    int32_t label_ = 0;   // of the rays that wait
+    size_t waiting_ = 0;  // rays from the batch's count on are not yet made
 };
 
 void GatherRays::begin_frame(size_t threads) {
@@ -298,9 +330,8 @@ const EnvironmentTable* GatherRays::table_of(int32_t map) {
 
 int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
-    int any = std::countr_zero(call.mask);
+    const int any = lanes.first(), level = lanes.integer(Row::Level, any), flags = flags_of(lanes);
     const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Row::Request, any))];
-    int level = lanes.integer(Row::Level, any), flags = lanes.integer(Row::Flags, any);
     bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < frame_.ray_depth &&
                   !frame_.stopped();
     RayCounts counts = count_rays(grid, lanes, flags, shoots);
@@ -309,144 +340,168 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
         return int32_t(kGatherSets) + level;
     }
 
-    ThreadMemory& own = grid.memory;
+    Arena::Mark mark = grid.memory.arena.mark();
     GatherMemory& memory = records_of(grid, level);
     Records records(memory, counts.most, record_width(results), size_t(call.first));
-    Arena::Mark mark = own.arena.mark();
-    std::span<const RayColumn> of_ray = ray_columns(results, own.arena);
-    // Who takes no solid angles may count all directions alike: these stay even.
-    bool weighs = std::ranges::any_of(
-        of_ray, [](const RayColumn& c) { return c.fact == RayFact::SolidAngle; });
-    NestedWavefront nested(own);
-    raytrace::RayBatch& rays = nested->rays;
-    rays.reserve(kGridPoints);
-    rays.count = 0;
-    uint8_t lane_of[kGridPoints];
-    uint32_t sample_of[kGridPoints];
-    int32_t label = 0;   // of the rays that wait
-    size_t waiting = 0;  // rays from rays.count on are not yet made
-    LaneRays made(grid, lanes, Row::P, Row::D, (flags & rsl::kGatherCosine) != 0);
-    auto make = [&](size_t end) {
-        const size_t first = rays.count, n = end - first;
-        made.add(rays, {{lane_of + first, n}, {sample_of + first, n}}, uint32_t(first));
-    };
-    auto flush = [&] {
-        const size_t n = std::exchange(waiting, 0);
-        make(n);
-        if (n > 0 && shoots)
-            shade({grid, results, records, {lane_of, n}, {sample_of, n}, label}, rays);
-        rays.count = 0;
-    };
-    // The sample that waits last, in a direction of its own.
-    auto add_along = [&](int lane, uint32_t k, vec3 dir) {
-        make(waiting - 1);
-        const RayStart start = ray_start(grid, lanes.point(lane), lanes.triple(Row::P, lane));
-        add_ray(rays, grid, start, dir, lanes.number(Row::Maxdist, lane),
-                lanes.number(Row::Bias, lane), raytrace::hash(lanes.seed(lane), k),
-                uint32_t(waiting - 1), counts.share[lane]);
-        spread_ray(rays, grid, *start.hits, start.hit);
-    };
-    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
-        for (int k = counts.samples[lane]; k < counts.most; ++k)
-            records.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
-    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
-        if (counts.samples[lane] == 0) continue;
-        const float angle = lanes.number(Row::Angle, lane);
-        const vec3 way = made.way(lane);
-        if (angle > 0)
-            made.set_cone(lane, angle);
-        else
-            made.set_straight(lane, way / glm::length(way));
-        made.set_reach(lane, lanes.number(Row::Maxdist, lane), lanes.number(Row::Bias, lane),
-                       counts.share[lane]);
-    }
-    lanes.for_each_text(Row::Label, [&](const Lanes& alike) {
-        label = alike.integer(Row::Label, alike.first());
-        for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
-            int n = alike.asks(lane) ? counts.samples[lane] : 0;
-            if (n == 0) continue;
-            uint32_t seed = lanes.seed(lane);
-            const float reach = lanes.number(Row::Maxdist, lane);
-            vec3 P = lanes.triple(Row::P, lane);
-            const Cone cone = made.cone(lane);
-            int32_t map = lanes.integer(Row::Map, lane);
-            bool by_brightness = map && weighs && !cone.by_cosine && cone.cosine < 0.999f;
-            MapDirections over(cone, by_brightness ? table_of(map) : nullptr, n);
-            for (uint32_t k = 0; k < uint32_t(n); ++k) {
-                vec3 dir(0.0f);
-                if (map || !of_ray.empty()) {
-                    dir = by_brightness ? over.direction(k, seed) : made.direction(lane, k);
-                    RayFacts facts{P, frame_.camera_from_accel * dir, reach};
-                    if (map)
-                        facts.solid_angle =
-                            by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
-                    if (by_brightness && facts.solid_angle == 0) {
-                        records.at(k, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
-                        continue;
-                    }
-                    if (map)
-                        light_of_map(*frame_.scene.textures, map, {&dir, 1},
-                                     over.width(facts.solid_angle), &facts.map_color);
-                    record_ray(records, of_ray, k, lane, facts);
-                }
-                if (counts.share[lane] == 0) continue;
-                lane_of[waiting] = uint8_t(lane);
-                sample_of[waiting++] = k;
-                if (by_brightness) add_along(lane, k, dir);
-                if (waiting == kGridPoints) flush();
-            }
-        }
-        flush();
-    });
-    own.arena.release(mark);
+    Call(*this, grid, lanes, counts, results, records).run(shoots);
+    grid.memory.arena.release(mark);
     int32_t handle = int32_t(kGatherSets) + level;
     grid.record_sets[size_t(handle)] = {counts.most, memory.records.data()};
     return handle;
 }
 
-void GatherRays::shade(const Job& job, raytrace::RayBatch& rays) {
-    Grid& grid = job.grid;
-    ThreadMemory& own = grid.memory;
-    Arena::Mark mark = own.arena.mark();
-    NestedWavefront nested(own);
-    nested->hits.reserve(kGridPoints);
-    const raytrace::HitBatch& hits =
-        raytrace::trace(frame_.scene.accel, rays, raytrace::kMaskAll, grid.depth + 1, nested->hits,
-                        own.counters.trace);
-    if (hits.count == 0) return;
-    size_t components = 0;
-    for (const GatherResult& result : job.results)
-        components += size_t(rsl::component_count(result.type));
-    std::span<float*> columns = own.arena.allocate_span<float*>(components);
+GatherRays::Call::Call(GatherRays& all, Grid& grid, const Lanes& lanes, const RayCounts& counts,
+                       std::span<const GatherResult> results, Records& records)
+    : all_(all),
+      grid_(grid),
+      lanes_(lanes),
+      counts_(counts),
+      results_(results),
+      records_(records),
+      of_ray_(ray_columns(results, grid.memory.arena)),
+      weighs_(std::ranges::any_of(
+          of_ray_, [](const RayColumn& c) { return c.fact == RayFact::SolidAngle; })),
+      nested_(grid.memory),
+      made_(grid, lanes, Row::P, Row::D, (flags_of(lanes) & rsl::kGatherCosine) != 0) {
+    nested_->rays.reserve(kGridPoints);
+    nested_->rays.count = 0;
+}
+
+void GatherRays::Call::run(bool shoots) {
+    shoots_ = shoots;
+    mark_absent();
+    set_lanes();
+    lanes_.for_each_text(Row::Label, [&](const Lanes& alike) {
+        label_ = alike.integer(Row::Label, alike.first());
+        for (int lane = 0; lane < jit::kMaxLanes; ++lane)
+            if (alike.asks(lane) && counts_.samples[lane] > 0) add_rays_of(lane);
+        flush();
+    });
+}
+
+void GatherRays::Call::mark_absent() {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
+        for (int k = counts_.samples[lane]; k < counts_.most; ++k)
+            records_.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
+}
+
+void GatherRays::Call::set_lanes() {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
+        if (counts_.samples[lane] == 0) continue;
+        const float angle = lanes_.number(Row::Angle, lane);
+        const vec3 way = made_.way(lane);
+        if (angle > 0)
+            made_.set_cone(lane, angle);
+        else
+            made_.set_straight(lane, way / glm::length(way));
+        made_.set_reach(lane, lanes_.number(Row::Maxdist, lane), lanes_.number(Row::Bias, lane),
+                        counts_.share[lane]);
+    }
+}
+
+void GatherRays::Call::add_rays_of(int lane) {
+    const int n = counts_.samples[lane];
+    const uint32_t seed = lanes_.seed(lane);
+    const vec3 P = lanes_.triple(Row::P, lane);
+    const Cone cone = made_.cone(lane);
+    const int32_t map = lanes_.integer(Row::Map, lane);
+    const bool by_brightness = map && weighs_ && !cone.by_cosine && cone.cosine < 0.999f;
+    const MapDirections over(cone, by_brightness ? all_.table_of(map) : nullptr, n);
+    for (uint32_t k = 0; k < uint32_t(n); ++k) {
+        vec3 dir(0.0f);
+        if (map || !of_ray_.empty()) {
+            dir = by_brightness ? over.direction(k, seed) : made_.direction(lane, k);
+            RayFacts facts{P, all_.frame_.camera_from_accel * dir,
+                           lanes_.number(Row::Maxdist, lane)};
+            if (map)
+                facts.solid_angle =
+                    by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
+            if (by_brightness && facts.solid_angle == 0) {
+                records_.at(k, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
+                continue;
+            }
+            if (map)
+                light_of_map(*all_.frame_.scene.textures, map, {&dir, 1},
+                             over.width(facts.solid_angle), &facts.map_color);
+            record_ray(records_, of_ray_, k, lane, facts);
+        }
+        if (counts_.share[lane] == 0) continue;
+        lane_of_[waiting_] = uint8_t(lane);
+        sample_of_[waiting_++] = k;
+        if (by_brightness) make_last_along(lane, k, dir);
+        if (waiting_ == kGridPoints) flush();
+    }
+}
+
+void GatherRays::Call::make(size_t end) {
+    raytrace::RayBatch& rays = nested_->rays;
+    const size_t first = rays.count, n = end - first;
+    made_.add(rays, {{lane_of_ + first, n}, {sample_of_ + first, n}}, uint32_t(first));
+}
+
+void GatherRays::Call::make_last_along(int lane, uint32_t k, vec3 direction) {
+    make(waiting_ - 1);
+    raytrace::RayBatch& rays = nested_->rays;
+    const RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(Row::P, lane));
+    add_ray(rays, grid_, start, direction, lanes_.number(Row::Maxdist, lane),
+            lanes_.number(Row::Bias, lane), raytrace::hash(lanes_.seed(lane), k),
+            uint32_t(waiting_ - 1), counts_.share[lane]);
+    spread_ray(rays, grid_, *start.hits, start.hit);
+}
+
+void GatherRays::Call::flush() {
+    make(waiting_);
+    if (std::exchange(waiting_, 0) > 0 && shoots_) shade();
+    nested_->rays.count = 0;
+}
+
+// Origin, direction and what else stands already have no column.
+std::span<float*> GatherRays::Call::columns_of(const raytrace::HitBatch& hits, Arena& arena) {
+    const size_t room = padded(hits.count);
+    std::span<float*> columns =
+        arena.allocate_span<float*>(size_t(record_width(results_) - rsl::kGatherResults));
     for (float*& column : columns) {
-        column = own.arena.allocate_span<float>(padded(hits.count)).data();
-        std::fill_n(column, padded(hits.count), 0.0f);
+        column = arena.allocate_span<float>(room).data();
+        std::fill_n(column, room, 0.0f);
     }
-    if (any_of_surface(job.results)) {
-        raytrace::ShadeResult result = take_colors(own.arena, hits.count);
-        HitOutputs outputs{job.results, columns};
-        hits_.shade(hits, deeper(grid, RayKind::Specular, job.label), own, result, &outputs);
-        copy_colors(job.results, columns, result, hits.count);
+    if (any_of_surface(results_)) {
+        raytrace::ShadeResult result = take_colors(arena, hits.count);
+        HitOutputs outputs{results_, columns};
+        all_.hits_.shade(hits, deeper(grid_, RayKind::Specular, label_), grid_.memory, result,
+                         &outputs);
+        copy_colors(results_, columns, result, hits.count);
     }
-    fill_geometry(job.results, columns, hits, frame_, own);
-    // Origin and direction stand already.
+    fill_geometry(results_, columns, hits, all_.frame_, grid_.memory);
     size_t at = 0;
-    for (const GatherResult& result : job.results) {
+    for (const GatherResult& result : results_) {
         size_t width = size_t(rsl::component_count(result.type));
-        bool length = result.name == "ray:length";
-        if (length) std::copy_n(hits.t, hits.count, columns[at]);
-        if (!length && result.name.starts_with("ray:"))
+        if (result.name == "ray:length")
+            std::copy_n(hits.t, hits.count, columns[at]);
+        else if (result.name.starts_with("ray:"))
             for (size_t k = 0; k < width; ++k) columns[at + k] = nullptr;
         at += width;
     }
+    return columns;
+}
+
+void GatherRays::Call::shade() {
+    ThreadMemory& own = grid_.memory;
+    Arena::Mark mark = own.arena.mark();
+    NestedWavefront below(own);
+    below->hits.reserve(kGridPoints);
+    const raytrace::RayBatch& rays = nested_->rays;
+    const raytrace::HitBatch& hits =
+        raytrace::trace(all_.frame_.scene.accel, nested_->rays, raytrace::kMaskAll, grid_.depth + 1,
+                        below->hits, own.counters.trace);
+    if (hits.count == 0) return;
+    std::span<float*> columns = columns_of(hits, own.arena);
     for (size_t h = 0; h < hits.count; ++h) {
         uint32_t slot = rays.slot[hits.ray[h]];
-        uint32_t record = job.sample_of[slot];
-        int lane = job.lane_of[slot];
-        job.records.at(record, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherHit);
-        for (size_t c = 0; c < components; ++c)
-            if (columns[c])
-                job.records.at(record, rsl::kGatherResults + int(c), lane) = columns[c][h];
+        uint32_t record = sample_of_[slot];
+        int lane = lane_of_[slot];
+        records_.at(record, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherHit);
+        for (size_t c = 0; c < columns.size(); ++c)
+            if (columns[c]) records_.at(record, rsl::kGatherResults + int(c), lane) = columns[c][h];
     }
     own.arena.release(mark);
 }

@@ -56,11 +56,10 @@ class GatherRays {
     int32_t gather(Grid& grid, const jit::ServiceCall& call);
 
   private:
-    struct Job;
+    class Call;
     GatherMemory& records_of(const Grid& grid, int nesting);
     // Null where the map's light does not come from a small part of it.
     const EnvironmentTable* table_of(int32_t map);
-    void shade(const Job& job, raytrace::RayBatch& rays);
 
     const ShadingFrame& frame_;
     HitShader& hits_;
