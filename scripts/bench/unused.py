@@ -6,14 +6,17 @@ tests/programs/render/unused_content_test.py adds to walker.dae. Its time is quo
 
 Runs of ten frames with and without the content alternate, on one thread. Each frame's time is divided by
 that of the same frame in the run beside it. A row shows the median of these ratios and the interval that
-holds the true median with 95 %, by order statistics. WORD: rows whose names hold it. --page writes the
-table into docs/trade.md.
+holds the true median with 95 %, by order statistics. Beside it stands the ratio of the instructions that
+a frame takes, by valgrind's cachegrind, which does not depend on what else the machine does. WORD: rows
+whose names hold it. --page writes the table into docs/trade.md.
 """
 import argparse
 import json
 import math
 import os
+import re
 import statistics
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -22,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 os.environ.setdefault("KINORA_SOURCE_DIR", str(ROOT))
 sys.path[:0] = [str(ROOT / "tests/programs"), str(ROOT / "tests/programs/render")]
 import unused_content_test as content  # noqa: E402
-from programs import render  # noqa: E402
+from programs import command, render  # noqa: E402
 
 PAGE = ROOT / "docs/trade.md"
 BEGIN, END = "<!-- measured by scripts/bench/unused.py -->\n", "<!-- end of what is not needed -->"
@@ -44,12 +47,27 @@ OTHER_BASES = {"lights of another category": content.one_lamp_and(), "black ligh
                "spots that look away": content.AUTHORLESS}
 
 
+def options_of(scene, frames):
+    return [scene, "-o", "null", "--size", "192x108", "--spp", "2", "--frames", f"2-{frames + 1}", "--threads", "1", "-q"]
+
+
 def frames_ms(scene):
-    done = render(scene, "-o", "null", "--size", "192x108", "--spp", "2", "--frames", f"2-{FRAMES + 1}", "--threads", "1",
-                  "--stats=json", "-q")
+    done = render(*options_of(scene, FRAMES), "--stats=json")
     if done.code:
         sys.exit(done.err)
     return [frame["total_ms"] for frame in json.loads(done.out)["frames"]]
+
+
+def instructions(scene):
+    """Of four frames, what is loaded and built before them left out."""
+    def of(frames):
+        done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null",
+                               *command("kinora-render", *options_of(scene, frames), "--target", "avx2")],
+                              capture_output=True, text=True)
+        if done.returncode:
+            sys.exit(done.stderr)
+        return int(re.search(r"I\s+refs:\s+([\d,]+)", done.stderr)[1].replace(",", ""))
+    return of(5) - of(1)
 
 
 def interval(values):
@@ -60,10 +78,7 @@ def interval(values):
     return statistics.median(values), values[max(low - 1, 0)], values[min(high, n - 1)]
 
 
-def ratios(folder, before, text, pairs):
-    base, more = folder / "base.dae", folder / "more.dae"
-    base.write_text(before)
-    more.write_text(text)
+def ratios(base, more, pairs):
     found = []
     while len(found) < pairs:
         first, second = (base, more) if len(found) // FRAMES % 2 else (more, base)
@@ -73,15 +88,18 @@ def ratios(folder, before, text, pairs):
 
 
 def table(options):
-    lines = ["| added to walker.dae | time of a frame | 95 % of the median | allowed |", "|---|---|---|---|"]
-    with tempfile.TemporaryDirectory() as folder:
-        for name, count, make, most in ROWS:
-            if options.words and not any(word in name for word in options.words):
+    lines = ["| added to walker.dae | time of a frame | 95 % of the median | allowed | instructions |", "|---|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as name:
+        base, more = Path(name) / "base.dae", Path(name) / "more.dae"
+        for row, count, make, most in ROWS:
+            if options.words and not any(word in row for word in options.words):
                 continue
-            middle, low, high = interval(
-                ratios(Path(folder), OTHER_BASES.get(name, content.WALKER), make(count), options.pairs))
+            base.write_text(OTHER_BASES.get(row, content.WALKER))
+            more.write_text(make(count))
+            middle, low, high = interval(ratios(base, more, options.pairs))
             verdict = "" if high < most else ", not held"
-            lines.append(f"| {count} {name} | {middle:.3f} | {low:.3f} to {high:.3f} | {most}{verdict} |")
+            counted = instructions(more) / instructions(base)
+            lines.append(f"| {count} {row} | {middle:.3f} | {low:.3f} to {high:.3f} | {most}{verdict} | {counted:.4f} |")
             print(lines[-1], flush=True)
     return lines
 
