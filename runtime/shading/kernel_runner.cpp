@@ -21,12 +21,12 @@ size_t fault_row(const ShaderInstance& look, const BoundKernel& bound) {
     return 2 * look.index + (&bound != &look.full);
 }
 
-// Calls f(kernel, its row of faults) for each kernel of all looks.
+// Calls f(bound kernel, its row of faults) for each of all looks.
 template <class F>
 void for_each_kernel(const Scene& scene, F&& f) {
     for (const auto& look : scene.shader_instances) {
-        f(look->full.kernel(), fault_row(*look, look->full));
-        if (look->opacity) f(look->opacity->kernel(), fault_row(*look, *look->opacity));
+        f(look->full, fault_row(*look, look->full));
+        if (look->opacity) f(*look->opacity, fault_row(*look, *look->opacity));
     }
 }
 
@@ -36,8 +36,8 @@ void KernelRunner::begin_frame(size_t threads) {
     faults_.resize(std::max(faults_.size(), threads));
     for (auto& faults : faults_) {
         faults.resize(2 * scene_.shader_instances.size());
-        for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
-            faults[row].assign(kernel.fault_sites.size(), 0);
+        for_each_kernel(scene_, [&](const BoundKernel& bound, size_t row) {
+            faults[row].assign(bound.kernel().fault_sites.size(), 0);
         });
     }
 }
@@ -47,12 +47,13 @@ void KernelRunner::report_faults(Diagnostics& diagnostics) const {
         if (const SceneKernel& full = look->full; full.prints_asked > full.prints_shown)
             diagnostics.report(Code::PRINT_LIMIT, Location{}, look->shader().name,
                                full.prints_asked, full.prints_shown);
-    for_each_kernel(scene_, [&](const jit::Kernel& kernel, size_t row) {
+    for_each_kernel(scene_, [&](const BoundKernel& bound, size_t row) {
         auto faulted = [&](size_t site) {
             return std::any_of(faults_.begin(), faults_.end(),
                                [&](const auto& faults) { return faults[row][site] != 0; });
         };
-        kinora::report_faults(kernel, faulted, diagnostics);
+        kinora::report_faults(bound.kernel(), faulted, diagnostics);
+        bound.report_frame_faults(diagnostics);
     });
 }
 

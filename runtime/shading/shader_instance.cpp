@@ -319,10 +319,21 @@ class SceneNumbers : public FrameNumbers {
     float number(size_t index) const override;
 
   private:
+    // From "current" to a space of the look, inverted once for its sixteen numbers.
+    const dmat4& space_from_current(uint32_t space) const;
+
     const FrameContext& context_;
     const ShaderInstance& look_;
     std::span<const FrameInput> inputs_;
+    mutable uint32_t inverted_ = kNone;  // the space of
+    mutable dmat4 inverse_{};
 };
+
+const dmat4& SceneNumbers::space_from_current(uint32_t space) const {
+    if (inverted_ != space) inverse_ = glm::inverse(look_.current_from_space[space]);
+    inverted_ = space;
+    return inverse_;
+}
 
 float SceneNumbers::number(size_t index) const {
     using Source = FrameInput::Source;
@@ -339,9 +350,9 @@ float SceneNumbers::number(size_t index) const {
                 parameter_in_current(input.type, m, &scene.values[input.index])[input.component]);
         }
         case Source::Space: {
-            const dmat4& m = look_.current_from_space[input.index];
             int row = input.component / 4, column = input.component % 4;
-            return float(input.inverse ? glm::inverse(m)[column][row] : m[column][row]);
+            return float((input.inverse ? space_from_current(input.index)
+                                        : look_.current_from_space[input.index])[column][row]);
         }
         case Source::Time:
             return float(scene.time);

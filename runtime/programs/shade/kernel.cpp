@@ -185,12 +185,9 @@ std::vector<std::string> ShadeKernel::unknown_spaces() const {
 }
 
 void ShadeKernel::report_faults(Diagnostics& diagnostics) const {
-    auto report = [&](const jit::Kernel& kernel, const std::vector<uint8_t>& faults) {
-        auto faulted = [&](size_t site) { return faults[site] != 0; };
-        kinora::report_faults(kernel, faulted, diagnostics);
-    };
-    report(bound_.kernel(), faults_);
-    if (bound_.pair.frame) report(*bound_.pair.frame, bound_.frame_faults);
+    auto faulted = [&](size_t site) { return faults_[site] != 0; };
+    kinora::report_faults(bound_.kernel(), faulted, diagnostics);
+    bound_.report_frame_faults(diagnostics);
     if (stack_) prints_.report(stack_->layers.front().shader->name, diagnostics);
 }
 

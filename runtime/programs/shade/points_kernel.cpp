@@ -79,10 +79,7 @@ void PointsKernel::report(Diagnostics& diagnostics) const {
     kinora::report_faults(
         bound_.kernel(), [&](size_t site) { return site < faults_.size() && faults_[site] != 0; },
         diagnostics);
-    if (bound_.pair.frame)
-        kinora::report_faults(
-            *bound_.pair.frame, [&](size_t site) { return bound_.frame_faults[site] != 0; },
-            diagnostics);
+    bound_.report_frame_faults(diagnostics);
 }
 
 }  // namespace kinora

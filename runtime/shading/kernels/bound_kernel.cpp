@@ -2,6 +2,7 @@
 #include "runtime/shading/kernels/bound_kernel.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "jit/ir/kernel_call.h"
 #include "runtime/description/findings.h"
@@ -44,7 +45,14 @@ void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
                             const std::atomic<int>* stop) {
     if (!pair.frame) return;
     const jit::Kernel& kernel = *pair.frame;
-    for (size_t i = 0; i < in_.size(); ++i) std::fill_n(in_[i], jit::padded(1), numbers.number(i));
+    bool stands = frame_ran_ && frame_services.empty() && record_sets.empty();
+    for (size_t i = 0; i < in_.size(); ++i) {
+        const float number = numbers.number(i);
+        stands = stands && std::bit_cast<uint32_t>(number) == std::bit_cast<uint32_t>(*in_[i]);
+        std::fill_n(in_[i], jit::padded(1), number);
+    }
+    if (stands) return;
+    std::ranges::fill(frame_faults, uint8_t(0));
     Arena::Mark mark = arena_.mark();
     jit::KernelCall{.kernel = kernel,
                     .count = 1,
@@ -60,6 +68,13 @@ void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
         .run();
     arena_.release(mark);
     for (size_t i = 0; i < frame.size(); ++i) frame[i] = out_[i][0];
+    frame_ran_ = !stop || stop->load(std::memory_order_relaxed) == 0;
+}
+
+void BoundKernel::report_frame_faults(Diagnostics& diagnostics) const {
+    if (!pair.frame) return;
+    auto faulted = [&](size_t site) { return frame_faults[site] != 0; };
+    report_faults(*pair.frame, faulted, diagnostics);
 }
 
 namespace {

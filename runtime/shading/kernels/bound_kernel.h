@@ -41,13 +41,17 @@ class BoundKernel {
     // `column_of` gives the column of a point kernel's input; it is asked once for each.
     void bind(jit::KernelPair kernels,
               const std::function<uint16_t(const rsl::KernelKey&)>& column_of);
-    // Runs the frame kernel and fills the frame block. No allocation.
+    // Runs the frame kernel and fills the frame block. Where all numbers are as they were and no
+    // service or record is read, the block and the faults stand as they are. No allocation.
     void run_frame(const FrameNumbers& numbers, KernelHost& host,
                    std::span<const jit::RecordSet> record_sets = {},
                    const std::atomic<int>* stop = nullptr);
     // Runs the point kernel; its scratch memory is taken from `arena` and stays taken, as does what
     // services take there.
     void run(const PointLaunch& launch, Arena& arena) const;
+
+    // The faults of the frame kernel as it ran last, one finding for each source line.
+    void report_frame_faults(Diagnostics& diagnostics) const;
 
     const jit::Kernel& kernel() const { return *pair.point; }
     bool empty() const { return !pair.point; }
@@ -61,6 +65,7 @@ class BoundKernel {
   private:
     Arena arena_;  // rows of kMaxLanes floats for the frame kernel
     std::vector<float*> in_, out_;
+    bool frame_ran_ = false;  // to its end, with the numbers of in_
 };
 
 // Rows for all outputs of a kernel.
