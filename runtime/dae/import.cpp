@@ -235,6 +235,7 @@ void ColladaImport::import_nodes() {
         to.id = from.id;
         to.sid = from.sid;
         to.name = from.name;
+        to.where = from.where;
         to.invisible = from.hidden;
         for (const auto& [name, text] : from.attributes)
             to.attributes.push_back(user_attribute(name, text));

@@ -43,6 +43,7 @@ void ColladaImport::import_meshes() {
         MeshDefinition& to = out_.meshes.emplace_back();
         to.id = from.id;
         to.name = from.name;
+        to.where = from.where;
         to.positions = std::move(from.positions);
         to.double_sided = from.double_sided;
         to.groups.reserve(from.groups.size());
@@ -95,6 +96,7 @@ void ColladaImport::import_skins() {
         to.offsets = std::move(from.offsets);
         to.joints = std::move(from.influence_joints);
         to.weights = std::move(from.influence_weights);
+        to.weights_told = true;
         to.where = from.where;
     }
 }

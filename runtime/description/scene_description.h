@@ -88,6 +88,7 @@ struct NodeDefinition {
     bool hidden = false;     // --hide: nothing of it and below is there
     bool chosen = false;     // --only: its meshes and those below are there
     bool reference = false;  // stands for what brings in the light or camera of another file
+    Location where;
 };
 
 // One attribute of a mesh with its own index per corner: NORMAL, TEXCOORD n, COLOR n.
@@ -114,6 +115,7 @@ struct MeshDefinition {
     std::vector<dvec3> positions;
     std::vector<PrimitiveGroup> groups;
     bool double_sided = true;
+    Location where;
 };
 
 struct SkinDefinition {
@@ -126,6 +128,7 @@ struct SkinDefinition {
     std::vector<uint32_t> offsets;
     std::vector<int32_t> joints;
     std::vector<float> weights;
+    bool weights_told = false;  // the reader has said which of them are no sound weights
     Location where;
 };
 

@@ -138,7 +138,7 @@ bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameS
         if (scene.first_frame) find_moving_parts(scene);
         for (uint32_t s : scene.moving.shapes)
             if (Shape& shape = scene.shapes[s]; shape.vertex_work)
-                shape.vertex_work->report(mesh_id(scene, shape), diagnostics);
+                shape.vertex_work->report(mesh_of(scene, shape), diagnostics);
     }
     {
         StageTimer timer(stats.refit);

@@ -56,15 +56,15 @@ bool report_camera(const Scene& scene, raytrace::CameraStatus status, Diagnostic
     return false;
 }
 
-const std::string& mesh_id(const Scene& scene, const Shape& shape) {
-    return scene.description->meshes[scene.meshes[shape.mesh].definition].id;
+const MeshDefinition& mesh_of(const Scene& scene, const Shape& shape) {
+    return scene.description->meshes[scene.meshes[shape.mesh].definition];
 }
 
 namespace {
 
 void report_singular(const Scene& scene, const Node& node, Diagnostics& diagnostics) {
     const NodeDefinition& from = scene.description->nodes[node.definition];
-    diagnostics.report(Code::NODE_SINGULAR, Location{}, from.id.empty() ? from.name : from.id);
+    diagnostics.report(Code::NODE_SINGULAR, from.where, from.id.empty() ? from.name : from.id);
 }
 
 // At the shader that gave them, the uppermost where layers are joined.
@@ -93,17 +93,17 @@ void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnost
     for (const auto& issue : update.issues) {
         if (!scene.told_issues.insert({issue.geometry, issue.issue}).second) continue;
         const Shape& shape = scene.shapes[scene.surfaces[issue.geometry].shape];
-        const std::string& mesh = mesh_id(scene, shape);
+        const MeshDefinition& mesh = mesh_of(scene, shape);
         switch (issue.issue) {
             case raytrace::GeometryIssue::SingularMatrix:
                 singular(shape);
                 break;
             case raytrace::GeometryIssue::BadVertices:
-                diagnostics.report(Code::GEOMETRY_ISSUE, Location{}, mesh,
+                diagnostics.report(Code::GEOMETRY_ISSUE, mesh.where, mesh.id,
                                    "some vertices are not finite; their triangles are not seen");
                 break;
             case raytrace::GeometryIssue::IndexOutOfRange:
-                diagnostics.report(Code::GEOMETRY_ISSUE, Location{}, mesh,
+                diagnostics.report(Code::GEOMETRY_ISSUE, mesh.where, mesh.id,
                                    "a triangle names a vertex that is not there");
                 break;
         }

@@ -16,7 +16,7 @@ bool report_camera(const Scene& scene, raytrace::CameraStatus status, Diagnostic
 // Singular nodes and broken meshes, in the first frame that has them.
 void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnostics& diagnostics);
 
-const std::string& mesh_id(const Scene& scene, const Shape& shape);
+const MeshDefinition& mesh_of(const Scene& scene, const Shape& shape);
 
 // After the imager has run: `bad` of its pixels are not finite.
 void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostics& diagnostics);

@@ -340,7 +340,7 @@ void VertexWork::turn_normals(const Pass& pass) {
     });
 }
 
-void VertexWork::report(std::string_view name, Diagnostics& diagnostics) {
+void VertexWork::report(const MeshDefinition& mesh, Diagnostics& diagnostics) {
     for (Group& group : groups_)
         for (size_t s = 0; s < kStages; ++s) {
             if (!group.use.looks[s]) continue;
@@ -352,7 +352,7 @@ void VertexWork::report(std::string_view name, Diagnostics& diagnostics) {
             report_faults(group.use.looks[s]->full.kernel(), faulted, diagnostics);
         }
     if (uint32_t count = std::exchange(not_finite_total_, 0))
-        diagnostics.report(Code::VERTEX_NON_FINITE, Location{}, count, name);
+        diagnostics.report(Code::VERTEX_NON_FINITE, mesh.where, count, mesh.id);
 }
 
 // ---- when kernels run ---------------------------------------------------------------------------

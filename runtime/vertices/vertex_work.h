@@ -54,7 +54,7 @@ class VertexWork {
              std::span<vec4> positions, std::span<vec4> normals, bool mirrored = false);
 
     // Faults and results that were not finite (their vertices stay), once each; forgets them.
-    void report(std::string_view name, Diagnostics& diagnostics);
+    void report(const MeshDefinition& mesh, Diagnostics& diagnostics);
 
     size_t wedges() const { return wedge_count_; }
 

@@ -85,7 +85,7 @@ void put_on_shapes(Scene& scene, const DisplacedMesh& from, DicedMesh& made, con
                                              vertex_uses(scene, from.surfaces[0], mesh));
     if (once) {
         work->run(scene, first.node, first.conversion, mesh.anchor, mesh.positions, mesh.normals);
-        work->report(scene.description->meshes[mesh.definition].id, diagnostics);
+        work->report(scene.description->meshes[mesh.definition], diagnostics);
         include_moved(mesh);
     }
     uint32_t index = uint32_t(scene.meshes.size());

@@ -30,9 +30,12 @@ void SkinBinder::bind(const MeshUse& use, Shape& shape) const {
     const SceneDescription& description = *scene_.description;
     std::string id = description.meshes[use.mesh].id;
     Location where;
+    bool weights_told = false;
     if (use.skin != kNone) {
-        id = description.skins[use.skin].id;
-        where = description.skins[use.skin].where;
+        const SkinDefinition& skin = description.skins[use.skin];
+        id = skin.id;
+        where = skin.where;
+        weights_told = skin.weights_told;
         bind_joints(use, shape);
     }
     skin::SkinRepairs repairs;
@@ -43,13 +46,13 @@ void SkinBinder::bind(const MeshUse& use, Shape& shape) const {
     shape.palette.resize(joints + 1);
     if (use.skin != kNone && scene_.options.skin_method == SkinMethod::Dual)
         shape.dual_palette.resize(joints + 1);
-    if (repairs.weight_sum)
+    if (repairs.weight_sum && !weights_told)
         diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
                             repairs.worst_sum);
     if (repairs.dropped)
         diagnostics_.report(Code::SKIN_INFLUENCES_DROPPED, where, id, repairs.dropped,
                             repairs.largest_dropped);
-    if (repairs.unweighted)
+    if (repairs.unweighted && !weights_told)
         diagnostics_.report(Code::SKIN_ZERO_INFLUENCE, where, id, repairs.unweighted);
 }
 

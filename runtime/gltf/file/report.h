@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/gltf/file/file.h"
@@ -30,6 +32,9 @@ class GltfReport {
     void finish();
 
     Location location(const std::string& pointer) const { return gltf_location(file_, pointer); }
+
+    // Of the first `count` elements of the array that a pointer names, in one pass over the text.
+    std::vector<Location> locations(std::string_view pointer, size_t count) const;
 
   private:
     const GltfFile& file_;

@@ -45,11 +45,13 @@ MeshImporter::MeshImporter(const tinygltf::Model& model, AccessorReader& accesso
 }
 
 void MeshImporter::import_meshes(const std::vector<bool>& used, UniqueIds& ids) {
+    std::vector<Location> places = report_.locations("/meshes", model_.meshes.size());
     for (uint32_t m = 0; m < model_.meshes.size(); ++m) {
         const tinygltf::Mesh& from = model_.meshes[m];
         MeshDefinition& to = meshes_[m];
         to.name = from.name;
         to.id = ids.id(from.name, "mesh", m);
+        to.where = places[m];
         vertices_[m].resize(from.primitives.size());
         if (!used[m]) continue;
         for (uint32_t p = 0; p < from.primitives.size(); ++p) import_primitive(m, p);

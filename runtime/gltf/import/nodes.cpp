@@ -86,12 +86,14 @@ void NodeImporter::import_transforms(uint32_t node) {
 
 void NodeImporter::import_nodes(UniqueIds& ids) {
     out_.nodes.resize(model_.nodes.size());
+    std::vector<Location> places = report_.locations("/nodes", model_.nodes.size());
     for (uint32_t n = 0; n < model_.nodes.size(); ++n) {
         if (!tree_.shown[n]) continue;
         const tinygltf::Node& from = model_.nodes[n];
         NodeDefinition& to = out_.nodes[n];
         to.name = from.name;
         to.id = ids.id(from.name, "node", n);
+        to.where = places[n];
         import_transforms(n);
         import_attributes(from.extras, to);
         for (uint32_t child : tree_.children[n]) to.children.push_back({child, dmat4(1.0)});

@@ -220,6 +220,21 @@ TEST(Gltf, AMatrixAndItsTranslationRotationScaleAreOneNode) {
     EXPECT_NEAR(a[1][0], -3, 1e-15);
 }
 
+TEST(Gltf, NodesAndMeshesKnowWhereTheyStandInTheFile) {
+    GltfText g = with_mesh([](GltfText& s) { return s.square(); });
+    g.node({{"name", "more [ { \" than one"}, {"scale", {0, 1, 1}}});
+    auto d = described(g.gltf(), ".gltf");
+    ASSERT_TRUE(d->scene) << d->findings();
+    auto text_at = [&](const Location& where) {
+        std::string_view text = d->diagnostics.files.text(where.file);
+        return nlohmann::json::parse(text.substr(where.begin, where.end - where.begin));
+    };
+    ASSERT_EQ(d->scene->nodes.size(), g.json["nodes"].size());
+    for (size_t n = 0; n < d->scene->nodes.size(); ++n)
+        EXPECT_EQ(text_at(d->scene->nodes[n].where), g.json["nodes"][n]) << n;
+    EXPECT_EQ(text_at(d->scene->meshes[0].where), g.json["meshes"][0]);
+}
+
 TEST(Gltf, OnlyTheScenesOwnNodesAreShown) {
     GltfText g = with_mesh([](GltfText& s) { return s.square(); });
     g.json["nodes"].push_back({{"mesh", 0}, {"name", "elsewhere"}});
