@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes assets/scenes/studio.dae and its picture: a tiled floor seen along it, a lamp with a face, two mirrors that
-see each other, glass that blows up, and a vane that turns fast. What knobs of light, textures, rays and keys trade
-shows here.
+see each other, glass that blows up, a vane that turns fast, a pane that reflects and lets through, a veil that fades, a
+banner on six joints and a stone that looks around. What knobs of light, textures, rays, skins and keys trade shows here.
 
     python3 make_studio.py ../../assets/scenes/studio.dae
 """
@@ -69,6 +69,41 @@ surface paint(color tint = color(0.95, 0.75, 0.1);) {
     Ci = tint * (0.15 + diffuse(Nf));
 }
 """
+PANE = """
+surface pane(float Kr = 0.5;) {
+    normal Nf = faceforward(normalize(N), I);
+    Oi = 0.5;
+    Ci = Kr * trace(P, reflect(normalize(I), Nf), "weight", color(Kr), "opacity", Oi);
+}
+"""
+VEIL = """
+class veil(color tint = color(0.9, 0.3, 0.35);) {
+    public void opacity(output color Oi) { Oi = 0.9 * pow(ycomp(transform("object", P)) / 2, 6); }
+    public void surface(output color Ci, Oi) {
+        normal Nf = faceforward(normalize(N), I);
+        Ci = Oi * tint * (0.3 + diffuse(Nf));
+    }
+}
+"""
+BANNER = """
+surface banner(color red = color(0.75, 0.1, 0.1); color white = color(0.95, 0.92, 0.85);) {
+    normal Nf = faceforward(normalize(N), I);
+    point Q = transform("object", P);
+    Oi = 1;
+    Ci = mix(red, white, step(0.5, mod(8 * xcomp(Q), 1))) * (0.2 + diffuse(Nf));
+}
+"""
+STONE = """
+surface stone(color tint = color(0.6, 0.65, 0.55);) {
+    normal Nf = faceforward(normalize(N), I);
+    color sum = 0, seen = 0;
+    float turn;
+    for (turn = 0; turn < 3; turn += 1)
+        gather("", P, Nf, 1.5707963, 8, "surface:Ci", seen) { sum += seen; } else { sum += color(0.3, 0.4, 0.5); }
+    Oi = 1;
+    Ci = tint * (diffuse(Nf) + sum / 24);
+}
+"""
 SKY = """
 surface sky() { Oi = 1; Ci = mix(color(0.75, 0.8, 0.85), color(0.2, 0.4, 0.7), t); }
 """
@@ -128,7 +163,10 @@ def animations():
     spin = [x for key in range(TURNS + 1) for x in turned(key / 3)]
     return ('<library_animations>' + keys("grow", "drop-weights(0)", [0, end], [0, 1], "WEIGHT") +
             keys("spin", "vane-node/place", [end * key / TURNS for key in range(TURNS + 1)], spin, "TRANSFORM",
-                 "float4x4", 16) + '</library_animations>\n')
+                 "float4x4", 16) +
+            keys("lift", "banner-joint0/place.Y", [0, end], [0, 0.7], "Y") +
+            keys("sink", f"banner-joint{JOINTS - 1}/place.Y", [0, end / 2, end], [0, 1, 0.2], "Y") +
+            '</library_animations>\n')
 
 
 def vane():
@@ -139,6 +177,50 @@ def vane():
         points += [(c * x - s * y, s * x + c * y, 0) for x, y in ((0, -0.07), (length, -0.07), (length, 0.07), (0, 0.07))]
         faces += [(4 * blade + a, 4 * blade + b, 4 * blade + d) for a, b, d in ((0, 1, 2), (0, 2, 3))]
     return points, [(0, 0, 1)] * len(points), faces
+
+
+JOINTS, COLUMNS, LENGTH = 6, 24, 1.3
+
+
+def banner():
+    """A strip along x from the middle of its left edge, and the x of its joints."""
+    xs = [LENGTH * i / COLUMNS for i in range(COLUMNS + 1)]
+    points = [(x, y, 0) for y in (-0.2, 0.2) for x in xs]
+    above = COLUMNS + 1
+    faces = [face for i in range(COLUMNS) for face in ((i, i + 1, above + i + 1), (i, above + i + 1, above + i))]
+    return (points, [(0, 0, 1)] * len(points), faces), [LENGTH * j / (JOINTS - 1) for j in range(JOINTS)]
+
+
+def skin(name, mesh, at):
+    """Each vertex hangs from all joints, from near ones most."""
+    def array(part, kind, texts, stride, of):
+        return (f'<source id="{name}-{part}"><{kind}_array id="{name}-{part}-a" count="{len(texts)}">{" ".join(texts)}'
+                f'</{kind}_array><technique_common><accessor source="#{name}-{part}-a" count="{len(texts) // stride}" '
+                f'stride="{stride}"><param name="{of}" type="{"float4x4" if stride > 1 else kind.lower()}"/></accessor>'
+                '</technique_common></source>')
+    weights, pairs = [], []
+    for x, _, _ in mesh[0]:
+        near = [math.exp(-((x - joint) / (0.8 * LENGTH)) ** 2) for joint in at]
+        for joint, weight in enumerate(near):
+            pairs.append(f"{joint} {len(weights)}")
+            weights.append(f"{weight / sum(near):.6f}")
+    back = [f"{x:g}" for joint in at for x in (1, 0, 0, -joint, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)]
+    return (f'<controller id="{name}-skin"><skin source="#{name}">' +
+            array("joints", "Name", [f"{name}-joint{j}" for j in range(JOINTS)], 1, "JOINT") +
+            array("back", "float", back, 16, "TRANSFORM") + array("weights", "float", weights, 1, "WEIGHT") +
+            f'<joints><input semantic="JOINT" source="#{name}-joints"/><input semantic="INV_BIND_MATRIX" '
+            f'source="#{name}-back"/></joints><vertex_weights count="{len(mesh[0])}"><input semantic="JOINT" '
+            f'source="#{name}-joints" offset="0"/><input semantic="WEIGHT" source="#{name}-weights" offset="1"/>'
+            f'<vcount>{" ".join([str(JOINTS)] * len(mesh[0]))}</vcount><v>{" ".join(pairs)}</v></vertex_weights></skin>'
+            '</controller>\n')
+
+
+def place_skin(name, look, transform, at):
+    bones = "".join(f'<node id="{name}-joint{j}" sid="{name}-joint{j}" type="JOINT"><translate sid="place">{x:g} 0 0'
+                    '</translate></node>' for j, x in enumerate(at))
+    return (f'<node id="{name}-bones">{transform}{bones}</node><node><instance_controller url="#{name}-skin"><skeleton>'
+            f'#{name}-bones</skeleton><bind_material><technique_common><instance_material symbol="skin" target="#{look}"/>'
+            '</technique_common></bind_material></instance_controller></node>\n')
 
 
 def place_morph(name, look, transform):
@@ -153,6 +235,8 @@ def main():
     tiles = tiled("tiles", "studio_tiles.png")
     effects = [tiles[:2], effect("glass", "glass"), code_of("mirror", [("SURFACE", "mirror")], MIRROR),
                code_of("sky", [("SURFACE", "sky")], SKY), code_of("paint", [("SURFACE", "paint")], PAINT),
+               code_of("pane", [("SURFACE", "pane")], PANE), code_of("veil", [("SURFACE", "veil")], VEIL),
+               code_of("cloth", [("SURFACE", "banner")], BANNER), code_of("stone", [("SURFACE", "stone")], STONE),
                code_of("panel", [("LIGHT", "panel"), ("SURFACE", "glow")], PANEL)]
     meshes, controller = morph("drop", 3)
     meshes += floor() + geometry("left", quad([(-2.2, 0, 1), (-2.2, 0, -5), (-2.2, 3, -5), (-2.2, 3, 1)], (1, 0, 0)))
@@ -160,6 +244,11 @@ def main():
     meshes += geometry("lamp", quad([(-0.8, 3.4, 0), (-0.8, 3.4, -2), (0.8, 3.4, -2), (0.8, 3.4, 0)], (0, -1, 0)))
     meshes += geometry("ball", icosphere(3)) + geometry("vane", vane())
     meshes += geometry("backdrop", quad([(-60, -1, -49), (60, -1, -49), (60, 40, -49), (-60, 40, -49)], (0, 0, 1)))
+    meshes += geometry("glazing", quad([(-1.3, 0, -3.4), (1.3, 0, -3.4), (1.3, 1.7, -3.4), (-1.3, 1.7, -3.4)], (0, 0, 1)))
+    meshes += geometry("curtain", quad([(-2, 0.1, -1.6), (-1.1, 0.1, -1.2), (-1.1, 2, -1.2), (-2, 2, -1.6)], (0.4, 0, 0.9)))
+    strip, at = banner()
+    meshes += geometry("banner", strip)
+    controller += skin("banner", strip, at)
     nodes = (place("floor", "tiles").replace("</instance_material>", "").replace(
         'target="#tiles"/>', 'target="#tiles"><bind_vertex_input semantic="UV" input_semantic="TEXCOORD" '
         'input_set="0"/></instance_material>') + place("left", "mirror") + place("right", "mirror") +
@@ -168,7 +257,10 @@ def main():
         place("vane", "paint", f'<matrix sid="place">{" ".join(f"{x:g}" for x in turned(0))}</matrix>').replace(
             "<node>", '<node id="vane-node">') +
         place("ball", "glass", "<translate>-0.9 0.5 -0.2</translate><scale>0.5 0.5 0.5</scale>") +
-        place("ball", "mirror", "<translate>0 0.6 -2.4</translate><scale>0.6 0.6 0.6</scale>"))
+        place("ball", "mirror", "<translate>0 0.6 -2.4</translate><scale>0.6 0.6 0.6</scale>") +
+        place("ball", "stone", "<translate>0.15 0.17 0.9</translate><scale>0.17 0.17 0.17</scale>") +
+        place("glazing", "pane") + place("curtain", "veil") +
+        place_skin("banner", "cloth", "<translate>0.5 1.9 -1.5</translate>", at))
     out_path.write_text(
         '<?xml version="1.0" encoding="utf-8"?>\n<!-- Made by scripts/assets/make_studio.py. -->\n'
         '<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">\n<asset>'
