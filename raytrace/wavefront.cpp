@@ -41,8 +41,8 @@ class Carver {
     }
     size_t total() const { return used_; }
     // Starts again over real memory, zeroed.
-    void back(std::vector<std::byte>& memory) {
-        memory.assign(used_ + kAlign, std::byte{0});
+    void back(ZeroedVector<std::byte>& memory) {
+        memory = ZeroedVector<std::byte>(used_ + kAlign);
         auto address = reinterpret_cast<uintptr_t>(memory.data());
         base_ = memory.data() + (round_up(address, kAlign) - address);
         used_ = 0;
@@ -73,7 +73,7 @@ void carve(HitBatch& b, Carver& carver) {
 }
 
 template <class Batch>
-void allocate(Batch& batch, size_t capacity, std::vector<std::byte>& memory) {
+void allocate(Batch& batch, size_t capacity, ZeroedVector<std::byte>& memory) {
     Carver carver(capacity);
     carve(batch, carver);
     carver.back(memory);

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <utility>
 
 #include "raytrace/ray_tracer.h"
@@ -58,7 +59,9 @@ class Render {
     }
 
     int run() {
-        const std::jthread opening = raytrace::open_ray_tracer_early();
+        set_thread_count(options_.threads);
+        std::jthread opening;
+        if (std::filesystem::exists(options_.scene)) opening = raytrace::open_ray_tracer_early();
         int code = load();
         printer_.summarize();
         if (code == kExitOk) code = printer_.exit_code(result());
@@ -139,7 +142,6 @@ void Render::flush_findings() {
 }
 
 int Render::load() {
-    set_thread_count(options_.threads);
     if (options_.findings.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
     Stopwatch watch;
     std::optional<ImportedScene> imported = import_requested(options_, diagnostics_);
