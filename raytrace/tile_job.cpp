@@ -154,7 +154,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
         out.ddir_dx[c] = r.dDdx[c];
         out.ddir_dy[c] = r.dDdy[c];
     }
-    const FilterTable* filter = settings_.samples_per_pixel > 1 ? &filter_ : nullptr;
+    const FilterTable* filter = settings_.samples_per_pixel > 1 ? filter_ : nullptr;
     m_.samples.clear();
     for (int sample = first_sample; sample < end_sample; ++sample)
         m_.samples.push_back(sample_bits(uint32_t(sample)));

@@ -6,7 +6,7 @@
 
 #include "raytrace/integrator.h"
 #include "raytrace/pixels/pixels.h"
-#include "runtime/base/zeroed_vector.h"
+#include "raytrace/zeroed_vector.h"
 
 namespace kinora::raytrace {
 
@@ -56,7 +56,7 @@ PixelView pixel_view(const Camera& camera, bool spreads = true);
 class TileJob {
   public:
     TileJob(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
-            const IntegratorSettings& settings, const FilterTable& filter,
+            const IntegratorSettings& settings, const FilterTable* filter,
             IntegratorScratch::Thread& scratch, int thread)
         : accel_(accel),
           camera_(camera),
@@ -101,7 +101,7 @@ class TileJob {
     SurfaceShading& shading_;
     Film& film_;
     const IntegratorSettings& settings_;
-    const FilterTable& filter_;
+    const FilterTable* filter_;  // with several samples a pixel
     IntegratorScratch::Thread& m_;
     int thread_;
     Tile tile_{};

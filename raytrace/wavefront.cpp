@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "raytrace/points/points.h"
+#include "runtime/base/arena.h"
 #include "runtime/base/check.h"
 #include "runtime/base/stage_clock.h"
 
@@ -43,6 +44,7 @@ class Carver {
     // Starts again over real memory, zeroed.
     void back(ZeroedVector<std::byte>& memory) {
         memory = ZeroedVector<std::byte>(used_ + kAlign);
+        provide_pages(memory.data(), memory.size());
         auto address = reinterpret_cast<uintptr_t>(memory.data());
         base_ = memory.data() + (round_up(address, kAlign) - address);
         used_ = 0;

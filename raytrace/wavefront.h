@@ -6,7 +6,7 @@
 #include <span>
 
 #include "raytrace/accel.h"
-#include "runtime/base/zeroed_vector.h"
+#include "raytrace/zeroed_vector.h"
 
 namespace kinora::raytrace {
 

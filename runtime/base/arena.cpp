@@ -1,6 +1,8 @@
 // runtime/base/arena.cpp: bump allocation in aligned blocks.
 #include "runtime/base/arena.h"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <new>
 
@@ -8,6 +10,18 @@ namespace kinora {
 
 namespace {
 constexpr size_t kAlignment = 64;
+}
+
+void provide_pages(void* memory, size_t bytes) {
+#ifdef MADV_POPULATE_WRITE
+    constexpr uintptr_t kPage = 4096;
+    const auto first = reinterpret_cast<uintptr_t>(memory);
+    const uintptr_t begin = (first + kPage - 1) & ~(kPage - 1), end = (first + bytes) & ~(kPage - 1);
+    // Kernels before 5.14 refuse, and pages come one by one.
+    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+#else
+    (void)memory, (void)bytes;
+#endif
 }
 
 void Arena::Free::operator()(std::byte* p) const {
@@ -23,6 +37,7 @@ void* Arena::allocate(size_t bytes) {
     if (block_ == blocks_.size()) {
         size_t size = std::max(bytes, block_bytes_);
         auto* memory = static_cast<std::byte*>(::operator new(size, std::align_val_t(kAlignment)));
+        provide_pages(memory, size);
         blocks_.push_back({std::unique_ptr<std::byte, Free>(memory), size});
         used_ = 0;
     }

@@ -1,4 +1,4 @@
-// runtime/base/parallel.cpp: parallel_for, whose threads a module has (runtime/base/tasks_module.h).
+// runtime/base/parallel.cpp: parallel_for, whose threads a module has (runtime/base/tasks/tasks_module.h).
 #include "runtime/base/parallel.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "runtime/base/check.h"
 #include "runtime/base/shared_library.h"
-#include "runtime/base/tasks_module.h"
+#include "runtime/base/tasks/tasks_module.h"
 
 namespace kinora {
 

@@ -18,6 +18,7 @@
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/heap.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/band_writer.h"
@@ -62,6 +63,7 @@ class Render {
         set_thread_count(options_.threads);
         std::jthread opening;
         if (std::filesystem::exists(options_.scene)) opening = raytrace::open_ray_tracer_early();
+        ready_heap(heap_of_scene(options_.scene));
         int code = load();
         printer_.summarize();
         if (code == kExitOk) code = printer_.exit_code(result());
@@ -508,6 +510,7 @@ int Render::tradeoff() {
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_heap(kinora::kHeapOfStart);
     kinora::RenderOptions options;
     if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
         return kinora::finish(*code, "kinora-render");

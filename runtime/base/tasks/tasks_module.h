@@ -1,4 +1,4 @@
-// runtime/base/tasks_module.h: the interface of libkinora_tasks.so, which alone links oneTBB and is
+// runtime/base/tasks/tasks_module.h: the interface of libkinora_tasks.so, which alone links oneTBB and is
 // opened by the first loop that several threads run.
 #pragma once
 

@@ -1,5 +1,5 @@
-// runtime/base/tasks_module.cpp: loops on oneTBB.
-#include "runtime/base/tasks_module.h"
+// runtime/base/tasks/tasks_module.cpp: loops on oneTBB.
+#include "runtime/base/tasks/tasks_module.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>

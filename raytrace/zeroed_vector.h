@@ -1,4 +1,4 @@
-// runtime/base/zeroed_vector.h: large buffers of which a small frame uses little.
+// raytrace/zeroed_vector.h: large buffers of which a small frame uses little.
 #pragma once
 
 #include <cstdlib>
