@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "raytrace/points/points.h"
-#include "runtime/base/arena.h"
 #include "runtime/base/check.h"
+#include "runtime/base/memory/pages.h"
 #include "runtime/base/stage_clock.h"
 
 namespace kinora::raytrace {

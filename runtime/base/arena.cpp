@@ -1,27 +1,15 @@
 // runtime/base/arena.cpp: bump allocation in aligned blocks.
 #include "runtime/base/arena.h"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <new>
+
+#include "runtime/base/memory/pages.h"
 
 namespace kinora {
 
 namespace {
 constexpr size_t kAlignment = 64;
-}
-
-void provide_pages(void* memory, size_t bytes) {
-#ifdef MADV_POPULATE_WRITE
-    constexpr uintptr_t kPage = 4096;
-    const auto first = reinterpret_cast<uintptr_t>(memory);
-    const uintptr_t begin = (first + kPage - 1) & ~(kPage - 1), end = (first + bytes) & ~(kPage - 1);
-    // Kernels before 5.14 refuse, and pages come one by one.
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
-#else
-    (void)memory, (void)bytes;
-#endif
 }
 
 void Arena::Free::operator()(std::byte* p) const {

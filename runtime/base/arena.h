@@ -10,10 +10,6 @@
 
 namespace kinora {
 
-// Has the system provide the whole pages of some memory at once. It would provide each when it is
-// first written: 0.7 instead of 13 us a page on a virtual machine. What is there stays.
-void provide_pages(void* memory, size_t bytes);
-
 // A bump allocator in 64-byte steps. Blocks are kept across reset(), so an arena that has met its
 // largest frame allocates no more. Not thread-safe: one arena a thread.
 class Arena {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "runtime/base/arena.h"
+#include "runtime/base/memory/pages.h"
 
 namespace kinora {
 
