@@ -212,10 +212,10 @@ void choose_hit(const RTCFilterFunctionNArguments* args) {
 void set_buffers(RTCGeometry g, std::span<const vec4> positions,
                  std::span<const uint32_t> triangles) {
     embree().rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                      positions.data(), 0, sizeof(vec4), positions.size());
+                                        positions.data(), 0, sizeof(vec4), positions.size());
     embree().rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                      triangles.data(), 0, 3 * sizeof(uint32_t),
-                                      triangles.size() / 3);
+                                        triangles.data(), 0, 3 * sizeof(uint32_t),
+                                        triangles.size() / 3);
 }
 
 void load_rays(const RayPacket16& in, RTCRay16& out) {
@@ -309,8 +309,8 @@ void EmbreeMesh::vertices_moved() {
 
 void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
     embree().rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0,
-                                      RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(vec4),
-                                      positions.size());
+                                        RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(vec4),
+                                        positions.size());
     embree().rtcCommitGeometry(geometry(geometry_));
 }
 
@@ -328,7 +328,7 @@ EmbreeInstance::~EmbreeInstance() {
 
 void EmbreeInstance::set_matrix(const float columns[12]) {
     embree().rtcSetGeometryTransform(geometry(geometry_), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                                   columns);
+                                     columns);
     embree().rtcCommitGeometry(geometry(geometry_));
 }
 

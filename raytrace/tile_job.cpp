@@ -192,7 +192,8 @@ void TileJob::shade_misses(const HitBatch& hits) {
 
 void TileJob::shade(const HitBatch& hits, Ends ends) {
     const size_t padded = (hits.count + kPacket - 1) / kPacket * kPacket;
-    for (auto& v : m_.shaded) std::fill_n(v.begin(), padded, 0.0f);
+    // What lies behind the hits is looked at, too, by mend().
+    for (auto& v : m_.shaded) std::fill(v.begin() + hits.count, v.begin() + padded, 0.0f);
     for (auto& v : m_.shaded_aov) std::fill_n(v.begin(), padded, 0.0f);
     ShadeResult result{{m_.shaded[0].data(), m_.shaded[1].data(), m_.shaded[2].data()},
                        {m_.shaded[3].data(), m_.shaded[4].data(), m_.shaded[5].data()},

@@ -38,13 +38,13 @@ struct IntegratorScratch::Thread {
     IntegratorCounters counters;
     ZeroedVector<float> color[3], through[3];  // by slot (sample of the chunk)
     ZeroedVector<float> shaded[6];             // Ci, Oi by hit
-    std::vector<Passage> passages;            // by hit
+    std::vector<Passage> passages;             // by hit
     std::vector<ZeroedVector<float>> shaded_aov;
     std::vector<float*> aov_pointers;
     TileOrder order;
     std::vector<SampleBits> samples;  // of the chunk, which all pixels share
-    size_t begun = 0;         // rays from the first that hold what all rays of the camera share ...
-    size_t passed = 0;        // but for so many, which went on behind hits
+    size_t begun = 0;   // rays from the first that hold what all rays of the camera share ...
+    size_t passed = 0;  // but for so many, which went on behind hits
     ZeroedVector<double> sum;  // colour and coverage, by pixel of the tile, in its order
     std::vector<ZeroedVector<double>> sum_aov;
 

@@ -167,6 +167,7 @@ class BlockOfHits {
         for (size_t i = 0; i < kPacket; ++i) scratch[i] = column[ray_[i < count_ ? i : 0]];
         return scratch;
     }
+
   private:
     const uint32_t* ray_;
     size_t count_;

@@ -51,8 +51,8 @@ void collect_names(const Particle& particle, std::vector<std::string_view>& name
 }  // namespace
 
 const ElementRules& ElementType::rules() const {
-    std::call_once(
-        once_, [&] { rules_ = std::make_unique<const ElementRules>(types_->parse(*this)); });
+    std::call_once(once_,
+                   [&] { rules_ = std::make_unique<const ElementRules>(types_->parse(*this)); });
     return *rules_;
 }
 

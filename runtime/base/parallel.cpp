@@ -1,4 +1,5 @@
-// runtime/base/parallel.cpp: parallel_for, whose threads a module has (runtime/base/tasks/tasks_module.h).
+// runtime/base/parallel.cpp: parallel_for, whose threads a module has
+// (runtime/base/tasks/tasks_module.h).
 #include "runtime/base/parallel.h"
 
 #include <algorithm>
@@ -26,8 +27,8 @@ struct TasksModule : SharedLibrary {
     KINORA_FUNCTION(kinora_parallel_for);
 };
 
-std::mutex g_changing;                            // of the two below
-std::atomic<int> g_threads = 0;                   // 0: not set, the machine's count
+std::mutex g_changing;                              // of the two below
+std::atomic<int> g_threads = 0;                     // 0: not set, the machine's count
 std::atomic<const TasksModule*> g_tasks = nullptr;  // null: not opened
 thread_local bool t_serial = false;
 

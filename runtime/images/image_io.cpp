@@ -232,7 +232,8 @@ std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding
     if (!has_extension(path, {".exr"})) return read_png(path);
     const ExrModule& exr = exr_module();
     KinoraExrPixels pixels;
-    if (!exr.error().empty() || exr.kinora_exr_read(path.c_str(), &pixels) != 0) return std::nullopt;
+    if (!exr.error().empty() || exr.kinora_exr_read(path.c_str(), &pixels) != 0)
+        return std::nullopt;
     raytrace::Film film;
     film.width = pixels.width;
     film.height = pixels.height;

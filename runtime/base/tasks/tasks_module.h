@@ -1,5 +1,5 @@
-// runtime/base/tasks/tasks_module.h: the interface of libkinora_tasks.so, which alone links oneTBB and is
-// opened by the first loop that several threads run.
+// runtime/base/tasks/tasks_module.h: the interface of libkinora_tasks.so, which alone links oneTBB
+// and is opened by the first loop that several threads run.
 #pragma once
 
 #include "runtime/base/parallel.h"

@@ -31,8 +31,8 @@ inline constexpr size_t kHeapOfStart = 192 << 10;  // of the table of options
 inline size_t heap_of_scene(const std::filesystem::path& file) {
     std::error_code code;
     const uintmax_t bytes = std::filesystem::file_size(file, code);
-    constexpr uintmax_t kLeast = 1 << 20, kMost = 48 << 20;
-    return size_t(kLeast + (code ? 0 : std::min(4 * bytes, kMost)));
+    constexpr uintmax_t kLeast = 1 << 20, kMost = 32 << 20;
+    return size_t(kLeast + (code ? 0 : std::min(3 * bytes, kMost)));
 }
 
 }  // namespace kinora
