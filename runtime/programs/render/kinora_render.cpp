@@ -61,8 +61,6 @@ class Render {
 
     int run() {
         set_thread_count(options_.threads);
-        std::jthread opening;
-        if (std::filesystem::exists(options_.scene)) opening = raytrace::open_ray_tracer_early();
         ready_heap(heap_of_scene(options_.scene));
         int code = load();
         printer_.summarize();
@@ -505,12 +503,22 @@ int Render::tradeoff() {
     return broken.empty() ? kExitOk : kExitSomeFailed;
 }
 
+// Of a word of the command line.
+bool names_file(const char* word) {
+    std::error_code code;
+    return std::filesystem::is_regular_file(word, code);
+}
+
 }  // namespace
 
 }  // namespace kinora
 
 int main(int argc, char** argv) {
     kinora::ready_heap(kinora::kHeapOfStart);
+    // Where a file is named a scene will be traced: not for --version.
+    std::jthread opening;
+    if (std::any_of(argv + std::min(argc, 1), argv + argc, kinora::names_file))
+        opening = kinora::raytrace::open_ray_tracer_early();
     kinora::RenderOptions options;
     if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
         return kinora::finish(*code, "kinora-render");
