@@ -16,6 +16,7 @@
 #include "raytrace/embree_p.h"
 #include "raytrace/ray_tracer.h"
 #include "runtime/base/check.h"
+#include "runtime/base/parallel.h"
 #include "runtime/base/shared_library.h"
 
 namespace kinora::raytrace {
@@ -27,50 +28,51 @@ void report_error(void*, RTCError code, const char* text) {
     std::fprintf(stderr, "kinora: Embree: %s (%d)\n", text ? text : "", int(code));
 }
 
-#define KINORA_EMBREE_FUNCTIONS(X)                                                                 \
-    X(rtcAttachGeometryByID)                                                                       \
-    X(rtcCommitGeometry)                                                                           \
-    X(rtcCommitScene) X(rtcDetachGeometry) X(rtcGetSceneBounds) X(rtcIntersect16) X(rtcNewDevice)  \
-        X(rtcNewGeometry) X(rtcNewScene) X(rtcOccluded16) X(rtcReleaseGeometry) X(rtcReleaseScene) \
-            X(rtcSetDeviceErrorFunction) X(rtcSetGeometryBuildQuality)                             \
-                X(rtcSetGeometryInstancedScene) X(rtcSetGeometryIntersectFilterFunction)           \
-                    X(rtcSetGeometryMask) X(rtcSetGeometryTimeStepCount)                           \
-                        X(rtcSetGeometryTransform) X(rtcSetSceneBuildQuality) X(rtcSetSceneFlags)  \
-                            X(rtcSetSharedGeometryBuffer) X(rtcUpdateGeometryBuffer)
-
-// Embree's functions: set when the device is made, before anything else of Embree is.
-struct Embree {
-    KINORA_EMBREE_FUNCTIONS(KINORA_LIBRARY_MEMBER)
-
-    std::string open() {
-        SharedLibrary library(KINORA_EMBREE_LIBRARY, "rays are traced", "libembree3-3");
-        KINORA_EMBREE_FUNCTIONS(KINORA_LIBRARY_BIND)
-        return library.error();
-    }
+// Opened before Embree, whose tasks it bounds.
+struct TaskScheduler {
+    TaskScheduler() { open_task_scheduler(); }
 };
-constinit Embree embree;
 
-// One device a process, made when first needed and kept: making one costs about a millisecond.
-struct Device {
+// Embree's functions and the one device of the process, which is kept: making one costs about a
+// millisecond.
+struct Embree : TaskScheduler, SharedLibrary {
+    Embree() : SharedLibrary(KINORA_EMBREE_LIBRARY, "rays are traced", "libembree3-3") {
+        if (!error().empty()) return;
+        device = rtcNewDevice(nullptr);
+        if (device) rtcSetDeviceErrorFunction(device, report_error, nullptr);
+    }
+
+    KINORA_FUNCTION(rtcAttachGeometryByID);
+    KINORA_FUNCTION(rtcCommitGeometry);
+    KINORA_FUNCTION(rtcCommitScene);
+    KINORA_FUNCTION(rtcDetachGeometry);
+    KINORA_FUNCTION(rtcGetSceneBounds);
+    KINORA_FUNCTION(rtcIntersect16);
+    KINORA_FUNCTION(rtcNewDevice);
+    KINORA_FUNCTION(rtcNewGeometry);
+    KINORA_FUNCTION(rtcNewScene);
+    KINORA_FUNCTION(rtcOccluded16);
+    KINORA_FUNCTION(rtcReleaseGeometry);
+    KINORA_FUNCTION(rtcReleaseScene);
+    KINORA_FUNCTION(rtcSetDeviceErrorFunction);
+    KINORA_FUNCTION(rtcSetGeometryBuildQuality);
+    KINORA_FUNCTION(rtcSetGeometryInstancedScene);
+    KINORA_FUNCTION(rtcSetGeometryIntersectFilterFunction);
+    KINORA_FUNCTION(rtcSetGeometryMask);
+    KINORA_FUNCTION(rtcSetGeometryTimeStepCount);
+    KINORA_FUNCTION(rtcSetGeometryTransform);
+    KINORA_FUNCTION(rtcSetSceneBuildQuality);
+    KINORA_FUNCTION(rtcSetSceneFlags);
+    KINORA_FUNCTION(rtcSetSharedGeometryBuffer);
+    KINORA_FUNCTION(rtcUpdateGeometryBuffer);
     RTCDevice device = nullptr;
-    std::string error;  // why there is none
-
-    Device() : error(embree.open()) {
-        if (!error.empty()) return;
-        device = embree.rtcNewDevice(nullptr);
-        if (!device) error = "rays are traced by Embree, which makes no device on this machine";
-        if (device) embree.rtcSetDeviceErrorFunction(device, report_error, nullptr);
-    }
 };
 
-const Device& the_device() {
-    static const Device made;
-    return made;
-}
-
-RTCDevice device() {
-    CHECK_EQ(the_device().error, "");  // whoever makes an Accel looks first
-    return the_device().device;
+// For those who know that rays can be traced: whoever makes an Accel looks first.
+const Embree& embree() {
+    const Embree& library = opened<Embree>();
+    CHECK(library.device != nullptr);
+    return library;
 }
 
 RTCGeometry geometry(void* p) {
@@ -209,11 +211,11 @@ void choose_hit(const RTCFilterFunctionNArguments* args) {
 
 void set_buffers(RTCGeometry g, std::span<const vec4> positions,
                  std::span<const uint32_t> triangles) {
-    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                      positions.data(), 0, sizeof(vec4), positions.size());
-    embree.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                      triangles.data(), 0, 3 * sizeof(uint32_t),
-                                      triangles.size() / 3);
+    embree().rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                        positions.data(), 0, sizeof(vec4), positions.size());
+    embree().rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                        triangles.data(), 0, 3 * sizeof(uint32_t),
+                                        triangles.size() / 3);
 }
 
 void load_rays(const RayPacket16& in, RTCRay16& out) {
@@ -274,97 +276,97 @@ void set_normal(const HitMap::Row& row, const RTCHit16& hit, int i, HitPacket16&
 }  // namespace
 
 const std::string& ray_tracer_error() {
-    return the_device().error;
+    static const std::string no_device =
+        "rays are traced by Embree, which makes no device on this machine";
+    const Embree& library = opened<Embree>();
+    return library.error().empty() && !library.device ? no_device : library.error();
 }
 
 std::jthread open_ray_tracer_early() {
-    return std::jthread([] { the_device(); });
+    return std::jthread([] { opened<Embree>(); });
 }
 
 EmbreeMesh::EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t> triangles,
                        BuildQuality quality, uint32_t mask, bool filtered) {
-    const RTCDevice with = device();  // first: it sets the functions
-    RTCGeometry g = embree.rtcNewGeometry(with, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry g = embree().rtcNewGeometry(embree().device, RTC_GEOMETRY_TYPE_TRIANGLE);
     geometry_ = g;
     set_buffers(g, positions, triangles);
-    embree.rtcSetGeometryBuildQuality(
+    embree().rtcSetGeometryBuildQuality(
         g, kQualities[int(quality)]);  // only heard before the first commit
-    embree.rtcSetGeometryMask(g, mask);
-    if (filtered) embree.rtcSetGeometryIntersectFilterFunction(g, choose_hit);
-    embree.rtcCommitGeometry(g);
+    embree().rtcSetGeometryMask(g, mask);
+    if (filtered) embree().rtcSetGeometryIntersectFilterFunction(g, choose_hit);
+    embree().rtcCommitGeometry(g);
 }
 
 EmbreeMesh::~EmbreeMesh() {
-    if (geometry_) embree.rtcReleaseGeometry(geometry(geometry_));
+    if (geometry_) embree().rtcReleaseGeometry(geometry(geometry_));
 }
 
 void EmbreeMesh::vertices_moved() {
-    embree.rtcUpdateGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0);
-    embree.rtcCommitGeometry(geometry(geometry_));
+    embree().rtcUpdateGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0);
+    embree().rtcCommitGeometry(geometry(geometry_));
 }
 
 void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
-    embree.rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0,
-                                      RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(vec4),
-                                      positions.size());
-    embree.rtcCommitGeometry(geometry(geometry_));
+    embree().rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0,
+                                        RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(vec4),
+                                        positions.size());
+    embree().rtcCommitGeometry(geometry(geometry_));
 }
 
 EmbreeInstance::EmbreeInstance(const EmbreeScene& of, uint32_t mask) {
-    const RTCDevice with = device();  // first: it sets the functions
-    RTCGeometry g = embree.rtcNewGeometry(with, RTC_GEOMETRY_TYPE_INSTANCE);
+    RTCGeometry g = embree().rtcNewGeometry(embree().device, RTC_GEOMETRY_TYPE_INSTANCE);
     geometry_ = g;
-    embree.rtcSetGeometryInstancedScene(g, scene(of.scene_));
-    embree.rtcSetGeometryTimeStepCount(g, 1);
-    embree.rtcSetGeometryMask(g, mask);
+    embree().rtcSetGeometryInstancedScene(g, scene(of.scene_));
+    embree().rtcSetGeometryTimeStepCount(g, 1);
+    embree().rtcSetGeometryMask(g, mask);
 }
 
 EmbreeInstance::~EmbreeInstance() {
-    if (geometry_) embree.rtcReleaseGeometry(geometry(geometry_));
+    if (geometry_) embree().rtcReleaseGeometry(geometry(geometry_));
 }
 
 void EmbreeInstance::set_matrix(const float columns[12]) {
-    embree.rtcSetGeometryTransform(geometry(geometry_), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                                   columns);
-    embree.rtcCommitGeometry(geometry(geometry_));
+    embree().rtcSetGeometryTransform(geometry(geometry_), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
+                                     columns);
+    embree().rtcCommitGeometry(geometry(geometry_));
 }
 
 EmbreeScene::EmbreeScene(bool dynamic, bool robust) {
-    const RTCDevice with = device();
-    RTCScene s = embree.rtcNewScene(with);
+    RTCScene s = embree().rtcNewScene(embree().device);
     scene_ = s;
     // Never HIGH: it aborts on extreme meshes in Debian's build (docs/numerics.md#geometry).
-    embree.rtcSetSceneBuildQuality(s, dynamic ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+    embree().rtcSetSceneBuildQuality(s, dynamic ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
     unsigned flags = RTC_SCENE_FLAG_NONE;
     if (dynamic) flags |= RTC_SCENE_FLAG_DYNAMIC;
     if (robust) flags |= RTC_SCENE_FLAG_ROBUST;
-    embree.rtcSetSceneFlags(s, RTCSceneFlags(flags));
+    embree().rtcSetSceneFlags(s, RTCSceneFlags(flags));
 }
 
 EmbreeScene::~EmbreeScene() {
-    if (scene_) embree.rtcReleaseScene(scene(scene_));
+    if (scene_) embree().rtcReleaseScene(scene(scene_));
 }
 
 void EmbreeScene::attach(const EmbreeMesh& mesh, uint32_t slot) {
-    embree.rtcAttachGeometryByID(scene(scene_), geometry(mesh.geometry_), slot);
+    embree().rtcAttachGeometryByID(scene(scene_), geometry(mesh.geometry_), slot);
 }
 
 void EmbreeScene::attach(const EmbreeInstance& instance, uint32_t slot) {
-    embree.rtcAttachGeometryByID(scene(scene_), geometry(instance.geometry_), slot);
+    embree().rtcAttachGeometryByID(scene(scene_), geometry(instance.geometry_), slot);
 }
 
 void EmbreeScene::detach(uint32_t slot) {
-    embree.rtcDetachGeometry(scene(scene_), slot);
+    embree().rtcDetachGeometry(scene(scene_), slot);
 }
 
 void EmbreeScene::commit() {
     DenormalGuard guard;
-    embree.rtcCommitScene(scene(scene_));
+    embree().rtcCommitScene(scene(scene_));
 }
 
 void EmbreeScene::bounds(vec3& low, vec3& high) const {
     RTCBounds box;
-    embree.rtcGetSceneBounds(scene(scene_), &box);
+    embree().rtcGetSceneBounds(scene(scene_), &box);
     low = {box.lower_x, box.lower_y, box.lower_z};
     high = {box.upper_x, box.upper_y, box.upper_z};
 }
@@ -389,7 +391,7 @@ uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bo
     }
     {
         DenormalGuard guard;
-        embree.rtcIntersect16(lanes.valid, scene(scene_), &query.rtc, &rayhit);
+        embree().rtcIntersect16(lanes.valid, scene(scene_), &query.rtc, &rayhit);
     }
     const RTCHit16& hit = rayhit.hit;
     std::memcpy(hits.u, hit.u, sizeof(hits.u));
@@ -422,7 +424,7 @@ uint32_t EmbreeScene::occluded16(const RayPacket16& rays) const {
     rtcInitIntersectContext(&context);
     {
         DenormalGuard guard;
-        embree.rtcOccluded16(lanes.valid, scene(scene_), &context, &ray);
+        embree().rtcOccluded16(lanes.valid, scene(scene_), &context, &ray);
     }
     uint32_t mask = 0;
     for (int i = 0; i < kPacket; ++i)

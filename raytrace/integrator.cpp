@@ -54,8 +54,9 @@ void prepare(Film& film, const Camera& camera, const IntegratorSettings& setting
         film.resize(camera.width, camera.height);
     }
     const PixelFilter* filter = settings.filter ? settings.filter : &pixel_filters()[0];
-    if (!scratch.filter || scratch.filter_row != filter ||
-        scratch.filter_width != settings.filter_width) {
+    const bool known = scratch.filter && scratch.filter_row == filter &&
+                       scratch.filter_width == settings.filter_width;
+    if (!known && settings.samples_per_pixel > 1) {
         scratch.filter =
             std::make_unique<FilterTable>(FilterSampler(*filter, settings.filter_width).table());
         scratch.filter_row = filter;
@@ -65,9 +66,11 @@ void prepare(Film& film, const Camera& camera, const IntegratorSettings& setting
         scratch.threads.push_back(std::make_unique<IntegratorScratch::Thread>());
     const size_t pixels = size_t(settings.tile) * size_t(settings.tile);
     // A tile at the border is smaller and takes more samples a chunk, but never more rays.
+    const size_t rays = std::min(std::max(settings.chunk_rays, pixels),
+                                 pixels * size_t(settings.samples_per_pixel));
     for (auto& thread : scratch.threads) {
-        thread->reserve(std::max(settings.chunk_rays, pixels), pixels, film.aovs.size());
-        if (misses) thread->misses.reserve(std::max(settings.chunk_rays, pixels));
+        thread->reserve(rays, pixels, film.aovs.size());
+        if (misses) thread->misses.reserve(rays);
         thread->counters = {};
         thread->begun = thread->passed = 0;
     }
@@ -90,7 +93,7 @@ bool integrate(const Accel& accel, const Camera& camera, SurfaceShading& shading
         const int thread = thread_index();
         StageClock clock;
         RunningClock running(clock);
-        TileJob job(accel, camera, shading, film, settings, *scratch.filter,
+        TileJob job(accel, camera, shading, film, settings, scratch.filter.get(),
                     *scratch.threads[size_t(thread)], thread);
         for (size_t i = first;
              i < last && !stop.load(std::memory_order_relaxed) && !shading.stopped(); ++i) {
@@ -118,7 +121,7 @@ vec4 integrate_sample(const Accel& accel, const Camera& camera, SurfaceShading& 
     vec4 result(0.0f);
     parallel_for(0, 1, 1, [&](size_t, size_t) {
         const int thread = thread_index();
-        TileJob job(accel, camera, shading, film, settings, *scratch.filter,
+        TileJob job(accel, camera, shading, film, settings, scratch.filter.get(),
                     *scratch.threads[size_t(thread)], thread);
         result = job.run_sample({x, y, x + 1, y + 1}, sample);
     });

@@ -63,15 +63,15 @@ struct IntegratorCounters {
     void operator+=(const IntegratorCounters& o);
 };
 
-// Memory reused from frame to frame: after the first frame of a size, integrate() allocates
-// nothing.
+// Memory reused from frame to frame: after the first frame of a size and a number of samples,
+// integrate() allocates nothing.
 class IntegratorScratch {
   public:
     IntegratorScratch();
     ~IntegratorScratch();
     struct Thread;
     std::vector<std::unique_ptr<Thread>> threads;
-    std::unique_ptr<FilterTable> filter;
+    std::unique_ptr<FilterTable> filter;  // made for the first frame of several samples a pixel
     const PixelFilter* filter_row = nullptr;
     double filter_width = -1;
 };

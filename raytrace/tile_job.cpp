@@ -154,7 +154,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
         out.ddir_dx[c] = r.dDdx[c];
         out.ddir_dy[c] = r.dDdy[c];
     }
-    const FilterTable* filter = settings_.samples_per_pixel > 1 ? &filter_ : nullptr;
+    const FilterTable* filter = settings_.samples_per_pixel > 1 ? filter_ : nullptr;
     m_.samples.clear();
     for (int sample = first_sample; sample < end_sample; ++sample)
         m_.samples.push_back(sample_bits(uint32_t(sample)));
@@ -192,7 +192,8 @@ void TileJob::shade_misses(const HitBatch& hits) {
 
 void TileJob::shade(const HitBatch& hits, Ends ends) {
     const size_t padded = (hits.count + kPacket - 1) / kPacket * kPacket;
-    for (auto& v : m_.shaded) std::fill_n(v.begin(), padded, 0.0f);
+    // What lies behind the hits is looked at, too, by mend().
+    for (auto& v : m_.shaded) std::fill(v.begin() + hits.count, v.begin() + padded, 0.0f);
     for (auto& v : m_.shaded_aov) std::fill_n(v.begin(), padded, 0.0f);
     ShadeResult result{{m_.shaded[0].data(), m_.shaded[1].data(), m_.shaded[2].data()},
                        {m_.shaded[3].data(), m_.shaded[4].data(), m_.shaded[5].data()},

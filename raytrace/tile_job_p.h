@@ -6,6 +6,7 @@
 
 #include "raytrace/integrator.h"
 #include "raytrace/pixels/pixels.h"
+#include "raytrace/zeroed_vector.h"
 
 namespace kinora::raytrace {
 
@@ -22,8 +23,8 @@ inline constexpr int kBlock = 4;  // a packet of one sample is 4x4 pixels
 // size.
 struct TileOrder {
     int width = 0, height = 0;
-    std::vector<uint32_t> x, y;         // within the tile
-    std::vector<uint32_t> scramble[2];  // PixelSet::scramble
+    ZeroedVector<uint32_t> x, y;         // within the tile
+    ZeroedVector<uint32_t> scramble[2];  // PixelSet::scramble
 
     void reserve(size_t pixels);
     void set_size(int w, int h);
@@ -35,17 +36,17 @@ struct IntegratorScratch::Thread {
     RayBatch rays;
     HitStore hits, misses;
     IntegratorCounters counters;
-    std::vector<float> color[3], through[3];  // by slot (sample of the chunk)
-    std::vector<float> shaded[6];             // Ci, Oi by hit
-    std::vector<Passage> passages;            // by hit
-    std::vector<std::vector<float>> shaded_aov;
+    ZeroedVector<float> color[3], through[3];  // by slot (sample of the chunk)
+    ZeroedVector<float> shaded[6];             // Ci, Oi by hit
+    std::vector<Passage> passages;             // by hit
+    std::vector<ZeroedVector<float>> shaded_aov;
     std::vector<float*> aov_pointers;
     TileOrder order;
     std::vector<SampleBits> samples;  // of the chunk, which all pixels share
-    size_t begun = 0;         // rays from the first that hold what all rays of the camera share ...
-    size_t passed = 0;        // but for so many, which went on behind hits
-    std::vector<double> sum;  // colour and coverage, by pixel of the tile, in its order
-    std::vector<std::vector<double>> sum_aov;
+    size_t begun = 0;   // rays from the first that hold what all rays of the camera share ...
+    size_t passed = 0;  // but for so many, which went on behind hits
+    ZeroedVector<double> sum;  // colour and coverage, by pixel of the tile, in its order
+    std::vector<ZeroedVector<double>> sum_aov;
 
     void reserve(size_t chunk, size_t tile_pixels, size_t aovs);
 };
@@ -55,7 +56,7 @@ PixelView pixel_view(const Camera& camera, bool spreads = true);
 class TileJob {
   public:
     TileJob(const Accel& accel, const Camera& camera, SurfaceShading& shading, Film& film,
-            const IntegratorSettings& settings, const FilterTable& filter,
+            const IntegratorSettings& settings, const FilterTable* filter,
             IntegratorScratch::Thread& scratch, int thread)
         : accel_(accel),
           camera_(camera),
@@ -100,7 +101,7 @@ class TileJob {
     SurfaceShading& shading_;
     Film& film_;
     const IntegratorSettings& settings_;
-    const FilterTable& filter_;
+    const FilterTable* filter_;  // with several samples a pixel
     IntegratorScratch::Thread& m_;
     int thread_;
     Tile tile_{};

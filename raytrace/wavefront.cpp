@@ -9,6 +9,7 @@
 
 #include "raytrace/points/points.h"
 #include "runtime/base/check.h"
+#include "runtime/base/memory/pages.h"
 #include "runtime/base/stage_clock.h"
 
 namespace kinora::raytrace {
@@ -41,8 +42,9 @@ class Carver {
     }
     size_t total() const { return used_; }
     // Starts again over real memory, zeroed.
-    void back(std::vector<std::byte>& memory) {
-        memory.assign(used_ + kAlign, std::byte{0});
+    void back(ZeroedVector<std::byte>& memory) {
+        memory = ZeroedVector<std::byte>(used_ + kAlign);
+        provide_pages(memory.data(), memory.size());
         auto address = reinterpret_cast<uintptr_t>(memory.data());
         base_ = memory.data() + (round_up(address, kAlign) - address);
         used_ = 0;
@@ -73,7 +75,7 @@ void carve(HitBatch& b, Carver& carver) {
 }
 
 template <class Batch>
-void allocate(Batch& batch, size_t capacity, std::vector<std::byte>& memory) {
+void allocate(Batch& batch, size_t capacity, ZeroedVector<std::byte>& memory) {
     Carver carver(capacity);
     carve(batch, carver);
     carver.back(memory);
@@ -165,6 +167,7 @@ class BlockOfHits {
         for (size_t i = 0; i < kPacket; ++i) scratch[i] = column[ray_[i < count_ ? i : 0]];
         return scratch;
     }
+
   private:
     const uint32_t* ray_;
     size_t count_;

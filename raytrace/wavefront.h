@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "raytrace/accel.h"
+#include "raytrace/zeroed_vector.h"
 
 namespace kinora::raytrace {
 
@@ -100,7 +100,7 @@ struct RayBatch {
 
   private:
     size_t capacity_ = 0;
-    std::vector<std::byte> memory_;
+    ZeroedVector<std::byte> memory_;
 };
 
 // The memory behind a HitBatch.
@@ -118,7 +118,7 @@ class HitStore {
     friend const HitBatch& missed(const RayBatch&, const HitBatch&, float, HitStore&);
     HitBatch batch_{};
     size_t capacity_ = 0;
-    std::vector<std::byte> memory_;
+    ZeroedVector<std::byte> memory_;
 };
 
 // Traces all rays with `mask` in packets of 16 and gathers the hits, densely and in the order of

@@ -269,8 +269,8 @@ std::optional<Archive> Unpacking::run(zip_source_t* source, zip_error_t& error) 
 template <class OpenSource>
 std::optional<Archive> unpack_source(const std::string& path, const ArchiveLimits& limits,
                                      Diagnostics& diag, OpenSource&& open_source) {
-    if (!zip().error.empty()) {
-        diag.report(Code::ARCHIVE_OPEN, Location{}, path, zip().error);
+    if (!zip().error().empty()) {
+        diag.report(Code::ARCHIVE_OPEN, Location{}, path, zip().error());
         return std::nullopt;
     }
     zip_error_t error;

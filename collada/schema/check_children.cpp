@@ -100,7 +100,7 @@ uint16_t ElementChecker::misplaced(const Element& element, const ElementType& ty
 
 void ElementChecker::unknown_child(const Element& element, const ElementType& type, uint16_t at,
                                    const Element& child, bool kept) {
-    const ElementType* other = type.row ? other_version_.find(type.name) : nullptr;
+    const ElementType* other = type.row ? other_version().find(type.name) : nullptr;
     uint16_t position =
         other && !foreign(child) ? other->rules().content.find(child.name) : uint16_t(0);
     if (position) {
@@ -111,7 +111,7 @@ void ElementChecker::unknown_child(const Element& element, const ElementType& ty
     }
     const ContentModel& model = type.rules().content;
     if (foreign(child) || types_.has_element(child.name) ||
-        other_version_.has_element(child.name)) {
+        other_version().has_element(child.name)) {
         if (!first(Code::SCHEMA_UNEXPECTED, &type, child.name)) return;
         Finding& finding = diag_.report(
             Code::SCHEMA_UNEXPECTED, document_.location(child), child.name, element.name,

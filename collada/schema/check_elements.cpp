@@ -4,20 +4,15 @@
 
 namespace kinora::collada {
 
-namespace {
-
-Version other(Version version) {
-    return is_15(version) ? Version::V1_4_1 : Version::V1_5_0;
-}
-
-}  // namespace
-
 ElementChecker::ElementChecker(const Document& document, Diagnostics& diag, Version version)
     : document_(document),
       diag_(diag),
       types_(ElementTypes::of(version)),
-      other_version_(ElementTypes::of(other(version))),
       namespaces_(document.root(), diag.files.text(document.file())) {}
+
+const ElementTypes& ElementChecker::other_version() const {
+    return ElementTypes::of(is_15(types_.version()) ? Version::V1_4_1 : Version::V1_5_0);
+}
 
 void ElementChecker::run() {
     const Element& root = document_.root();

@@ -52,6 +52,8 @@ class ElementChecker {
     // "did you mean" of the first names only: the search takes longer than all other checks.
     bool may_suggest() { return ++suggestions_ <= 1000; }
     void report_foreign(const Element& child);
+    // COLLADA 1.5's where the document is of 1.4, and the other way round.
+    const ElementTypes& other_version() const;
 
     bool first(const FindingInfo& code, const void* type, std::string_view name) {
         return seen_.emplace(&code, type, name).second;
@@ -60,7 +62,6 @@ class ElementChecker {
     const Document& document_;
     Diagnostics& diag_;
     const ElementTypes& types_;
-    const ElementTypes& other_version_;
     Namespaces namespaces_;
     std::unordered_map<std::string_view, const Element*> shared_ids_;  // of those used twice
     // Whether so many children of that name stood in wrong positions that all has been said of

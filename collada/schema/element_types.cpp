@@ -51,14 +51,18 @@ void collect_names(const Particle& particle, std::vector<std::string_view>& name
 }  // namespace
 
 const ElementRules& ElementType::rules() const {
-    std::call_once(once_, [&] { rules_ = types_->parse(*this); });
-    return rules_;
+    std::call_once(once_,
+                   [&] { rules_ = std::make_unique<const ElementRules>(types_->parse(*this)); });
+    return *rules_;
 }
 
 const ElementTypes& ElementTypes::of(Version version) {
+    if (is_15(version)) {
+        static const ElementTypes kTypes15(Version::V1_5_0);
+        return kTypes15;
+    }
     static const ElementTypes kTypes14(Version::V1_4_1);
-    static const ElementTypes kTypes15(Version::V1_5_0);
-    return is_15(version) ? kTypes15 : kTypes14;
+    return kTypes14;
 }
 
 ElementTypes::ElementTypes(Version version) : version_(version) {

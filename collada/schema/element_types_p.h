@@ -46,7 +46,7 @@ struct ElementType {
     friend class ElementTypes;
     const ElementTypes* types_ = nullptr;
     mutable std::once_flag once_;
-    mutable ElementRules rules_;
+    mutable std::unique_ptr<const ElementRules> rules_;
 };
 
 class ElementTypes {

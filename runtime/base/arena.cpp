@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <new>
 
+#include "runtime/base/memory/pages.h"
+
 namespace kinora {
 
 namespace {
@@ -23,6 +25,7 @@ void* Arena::allocate(size_t bytes) {
     if (block_ == blocks_.size()) {
         size_t size = std::max(bytes, block_bytes_);
         auto* memory = static_cast<std::byte*>(::operator new(size, std::align_val_t(kAlignment)));
+        provide_pages(memory, size);
         blocks_.push_back({std::unique_ptr<std::byte, Free>(memory), size});
         used_ = 0;
     }

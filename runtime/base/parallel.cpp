@@ -1,39 +1,63 @@
-// runtime/base/parallel.cpp: parallel_for on oneTBB.
+// runtime/base/parallel.cpp: parallel_for, whose threads a module has
+// (runtime/base/tasks/tasks_module.h).
 #include "runtime/base/parallel.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <optional>
+#include <atomic>
+#include <cstdio>
+#include <mutex>
 #include <thread>
 #include <utility>
 
 #include "runtime/base/check.h"
+#include "runtime/base/shared_library.h"
+#include "runtime/base/tasks/tasks_module.h"
 
 namespace kinora {
 
 namespace {
 
-int g_threads = 0;  // 0: not set, the machine's count
-std::optional<tbb::global_control> g_limit;
-std::unique_ptr<tbb::task_arena> g_arena;
+struct TasksModule : SharedLibrary {
+    TasksModule()
+        : SharedLibrary(module_path("libkinora_tasks.so"), "loops are shared among threads",
+                        "libtbb12") {}
+
+    KINORA_FUNCTION(kinora_limit_threads);
+    KINORA_FUNCTION(kinora_thread_index);
+    KINORA_FUNCTION(kinora_parallel_for);
+};
+
+std::mutex g_changing;                              // of the two below
+std::atomic<int> g_threads = 0;                     // 0: not set, the machine's count
+std::atomic<const TasksModule*> g_tasks = nullptr;  // null: not opened
 thread_local bool t_serial = false;
 
-tbb::task_arena& arena() {
-    if (!g_arena) g_arena = std::make_unique<tbb::task_arena>(thread_count());
-    return *g_arena;
+const TasksModule* open_tasks() {
+    const TasksModule& tasks = opened<TasksModule>();
+    const std::lock_guard lock(g_changing);
+    if (tasks.error().empty()) {
+        tasks.kinora_limit_threads(thread_count());
+        g_tasks = &tasks;
+    } else {
+        std::fprintf(stderr, "kinora: %s; one thread works\n", tasks.error().c_str());
+        g_threads = 1;
+    }
+    return g_tasks;
+}
+
+// Opened by the first call; null where it cannot be.
+const TasksModule* tasks() {
+    static const TasksModule* const opened_once = open_tasks();
+    return opened_once;
 }
 
 }  // namespace
 
 void set_thread_count(int n) {
     CHECK_GE(n, 1);
+    const std::lock_guard lock(g_changing);
     g_threads = n;
-    g_arena.reset();
-    g_limit.emplace(tbb::global_control::max_allowed_parallelism, size_t(n));
+    if (const TasksModule* module = g_tasks) module->kinora_limit_threads(n);
 }
 
 int thread_count() {
@@ -42,8 +66,12 @@ int thread_count() {
 }
 
 int thread_index() {
-    int index = tbb::this_task_arena::current_thread_index();
-    return index == tbb::task_arena::not_initialized ? 0 : std::min(index, thread_count() - 1);
+    const TasksModule* module = g_tasks;
+    return module ? std::clamp(module->kinora_thread_index(), 0, thread_count() - 1) : 0;
+}
+
+void open_task_scheduler() {
+    tasks();
 }
 
 SerialScope::SerialScope() : before_(std::exchange(t_serial, true)) {}
@@ -51,14 +79,12 @@ SerialScope::~SerialScope() {
     t_serial = before_;
 }
 
-void parallel_for(size_t first, size_t last, size_t grain, FunctionRef<void(size_t, size_t)> body) {
+void parallel_for(size_t first, size_t last, size_t grain, LoopBody body) {
     if (first >= last) return;
-    if (t_serial || thread_count() == 1 || last - first <= grain) return body(first, last);
-    arena().execute([&] {
-        tbb::parallel_for(
-            tbb::blocked_range<size_t>(first, last, std::max<size_t>(grain, 1)),
-            [&](const tbb::blocked_range<size_t>& range) { body(range.begin(), range.end()); });
-    });
+    const bool alone = t_serial || thread_count() == 1 || last - first <= grain;
+    const TasksModule* module = alone ? nullptr : tasks();
+    if (!module) return body(first, last);
+    module->kinora_parallel_for(first, last, std::max<size_t>(grain, 1), &body);
 }
 
 }  // namespace kinora

@@ -1,5 +1,6 @@
-// runtime/base/parallel.h: run a range on the machine's cores. oneTBB underneath (one pool,
-// shared with Embree), hidden so that including this costs nothing.
+// runtime/base/parallel.h: run a range on the machine's cores. oneTBB underneath (one pool, shared
+// with Embree), in a module that is opened by the first loop of several threads: it is slow to
+// include and to load.
 #pragma once
 
 #include <cstddef>
@@ -29,13 +30,18 @@ class FunctionRef<R(Args...)> {
     R (*call_)(void*, Args...);
 };
 
-// Bounds the threads that all later parallel work uses, the calling one included; n >= 1.
+// Bounds the threads that all later parallel work uses, the calling one included; n >= 1. Not while
+// a loop runs.
 void set_thread_count(int n);
 int thread_count();
 
 // Index of the calling thread among the workers, 0 <= index < thread_count(): stable inside one
 // parallel_for body, for per-thread arenas.
 int thread_index();
+
+// Opens the module now. Before other libraries that use oneTBB: thread_count() then binds them too.
+// Where it cannot be opened, which stderr is told, all loops run on the thread that calls.
+void open_task_scheduler();
 
 // Calls body(begin, end) for disjoint ranges covering [first, last), each at least `grain` long
 // where possible; runs inline when one range is enough or one thread is set. Not for use below

@@ -19,11 +19,11 @@ SharedLibrary::SharedLibrary(const std::string& file, std::string_view purpose,
     fail(why ? why : "unknown reason");
 }
 
-void* SharedLibrary::find(const char* name) {
-    if (!error_.empty()) return nullptr;
+SharedLibrary::Symbol SharedLibrary::find(const char* name) {
+    if (!error_.empty()) return {nullptr};
     void* found = dlsym(handle_, name);
     if (!found) fail(fmt::format("it lacks {}", name));
-    return found;
+    return {found};
 }
 
 void SharedLibrary::fail(const std::string& why) {

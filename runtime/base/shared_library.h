@@ -7,24 +7,35 @@
 
 namespace kinora {
 
-// One library; it stays open until the program ends. Make one in a function's static.
+// One library; it stays open until the program ends. What is used of it are members of a struct:
+//     struct Zip : SharedLibrary {
+//         Zip() : SharedLibrary(KINORA_ZIP_LIBRARY, "archives are read", "libzip4") {}
+//         KINORA_FUNCTION(zip_fopen);
+//     };
+//     opened<Zip>().zip_fopen(...)
 class SharedLibrary {
   public:
     // `file`: a soname ("libzip.so.4") or a path. `purpose` and `package` complete the error:
     // "archives are read by libzip.so.4, which cannot be loaded (...); install libzip4".
     SharedLibrary(const std::string& file, std::string_view purpose, std::string_view package);
+    SharedLibrary(const SharedLibrary&) = delete;
 
-    // Sets `symbol` to what the library has under that name, or to null with an error.
-    template <class T>
-    void bind(T*& symbol, const char* name) {
-        symbol = reinterpret_cast<T*>(find(name));
-    }
-
-    // Why it cannot be used: it cannot be opened, or lacks a name that bind() was given. Else "".
+    // Why it cannot be used: it cannot be opened, or lacks a name. Else "".
     const std::string& error() const { return error_; }
 
+  protected:
+    // The address of a name, of whatever type the library's header gives it.
+    struct Symbol {
+        void* address;
+        template <class T>
+        operator T*() const {
+            return reinterpret_cast<T*>(address);
+        }
+    };
+    // Null, with an error, where the library has no such name.
+    Symbol find(const char* name);
+
   private:
-    void* find(const char* name);
     void fail(const std::string& why);
 
     std::string file_, purpose_, package_;
@@ -32,14 +43,18 @@ class SharedLibrary {
     std::string error_;
 };
 
+// The library of this process, opened by the first call and never freed: objects that end after the
+// program's main() may still use it.
+template <class Library>
+const Library& opened() {
+    static const Library& library = *new Library;
+    return library;
+}
+
 // Where a module of ours lies: BIN/../lib/FILE, in the build and where the programs are installed.
 std::string module_path(std::string_view file);
 
 }  // namespace kinora
 
-// Tables of a library's functions: a list macro LIST(X) that says X(name) for each, and in a struct
-//     LIST(KINORA_LIBRARY_MEMBER)  // a pointer called as the function is
-// and where `library` is the SharedLibrary
-//     LIST(KINORA_LIBRARY_BIND)
-#define KINORA_LIBRARY_MEMBER(name) decltype(&::name) name = nullptr;
-#define KINORA_LIBRARY_BIND(name) library.bind(this->name, #name);
+// A function of a library as a member of a struct that is a SharedLibrary: called as itself.
+#define KINORA_FUNCTION(name) decltype(&::name) name = find(#name)

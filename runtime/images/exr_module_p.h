@@ -6,26 +6,21 @@
 
 namespace kinora {
 
-#define KINORA_EXR_FUNCTIONS(X)                                                 \
-    X(kinora_exr_begin)                                                         \
-    X(kinora_exr_write) X(kinora_exr_end) X(kinora_exr_text) X(kinora_exr_read) \
-        X(kinora_exr_free_pixels)
+struct ExrModule : SharedLibrary {
+    ExrModule()
+        : SharedLibrary(module_path("libkinora_exr.so"), "EXR pictures are read and written",
+                        "libopenexr-3-1-30") {}
 
-struct ExrModule {
-    KINORA_EXR_FUNCTIONS(KINORA_LIBRARY_MEMBER)
-    std::string error;  // why there are none, or ""
-
-    ExrModule() {
-        SharedLibrary library(module_path("libkinora_exr.so"), "EXR pictures are read and written",
-                              "libopenexr-3-1-30");
-        KINORA_EXR_FUNCTIONS(KINORA_LIBRARY_BIND)
-        error = library.error();
-    }
+    KINORA_FUNCTION(kinora_exr_begin);
+    KINORA_FUNCTION(kinora_exr_write);
+    KINORA_FUNCTION(kinora_exr_end);
+    KINORA_FUNCTION(kinora_exr_text);
+    KINORA_FUNCTION(kinora_exr_read);
+    KINORA_FUNCTION(kinora_exr_free_pixels);
 };
 
 inline const ExrModule& exr_module() {
-    static const ExrModule module;
-    return module;
+    return opened<ExrModule>();
 }
 
 }  // namespace kinora

@@ -82,7 +82,7 @@ void round_to_depth(raytrace::Film& film, PictureDepth depth) {
 std::unique_ptr<RowWriter> exr_rows(const std::string& path, const raytrace::Film& film, int height,
                                     PictureDepth depth, const ImageTexts& texts, std::string& error,
                                     int& number) {
-    error = exr_module().error;
+    error = exr_module().error();
     if (!error.empty()) return nullptr;
     errno = 0;
     OpenFile file(std::fopen(path.c_str(), "wb"));

@@ -182,7 +182,7 @@ bool png_has_end(std::FILE* file) {
 template <class Use>
 bool with_png(const std::string& path, Image8* rows, Use use) {
     OpenFile file = open_regular_file(path);
-    if (!libpng().error.empty() || !file || !png_has_end(file.get())) return false;
+    if (!libpng().error().empty() || !file || !png_has_end(file.get())) return false;
     PngError error;
     png_structp png = libpng().png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error,
                                                       on_png_warning);
@@ -195,7 +195,7 @@ bool with_png(const std::string& path, Image8* rows, Use use) {
 
 std::optional<std::string> read_exr_text(const std::string& path, const std::string& key) {
     const ExrModule& exr = exr_module();
-    if (!exr.error.empty()) return std::nullopt;
+    if (!exr.error().empty()) return std::nullopt;
     auto read = [&](std::string& into) {
         return exr.kinora_exr_text(path.c_str(), key.c_str(), into.data(), into.size() + 1);
     };
@@ -232,7 +232,8 @@ std::optional<Image8> read_image(const std::string& path, ColorEncoding encoding
     if (!has_extension(path, {".exr"})) return read_png(path);
     const ExrModule& exr = exr_module();
     KinoraExrPixels pixels;
-    if (!exr.error.empty() || exr.kinora_exr_read(path.c_str(), &pixels) != 0) return std::nullopt;
+    if (!exr.error().empty() || exr.kinora_exr_read(path.c_str(), &pixels) != 0)
+        return std::nullopt;
     raytrace::Film film;
     film.width = pixels.width;
     film.height = pixels.height;

@@ -16,7 +16,7 @@ constexpr uint64_t kMostPixels = uint64_t(1) << 28;
 }  // namespace
 
 std::vector<uint8_t> encode_png(const Image8& image) {
-    if (!libpng().error.empty()) return {};
+    if (!libpng().error().empty()) return {};
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     png.width = png_uint_32(image.width);
@@ -64,7 +64,7 @@ std::optional<std::vector<uint8_t>> from_base64(std::string_view text) {
 }
 
 std::optional<Image8> decode_png(std::span<const uint8_t> bytes) {
-    if (!libpng().error.empty()) return std::nullopt;
+    if (!libpng().error().empty()) return std::nullopt;
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     if (!libpng().png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))

@@ -104,7 +104,7 @@ class PngRowsToFile final : public PngRows {
 std::unique_ptr<PngRows> png_rows(const std::string& path, int width, int height,
                                   ColorEncoding encoding, const ImageTexts& texts,
                                   std::string& error, int& number) {
-    error = libpng().error;
+    error = libpng().error();
     if (!error.empty()) return nullptr;
     errno = 0;
     OpenFile file(std::fopen(path.c_str(), "wb"));

@@ -20,24 +20,18 @@ namespace kinora {
 
 namespace {
 
-#define KINORA_IMAGES_FUNCTIONS(X) X(kinora_decode_image) X(kinora_free_image)
-
 // The module's functions, or why there are none. OpenImageIO does not survive being unloaded.
-struct ImagesModule {
-    KINORA_IMAGES_FUNCTIONS(KINORA_LIBRARY_MEMBER)
-    std::string error;
+struct ImagesModule : SharedLibrary {
+    ImagesModule()
+        : SharedLibrary(module_path("libkinora_images.so"), "images other than PNG are read",
+                        "libopenimageio2.4") {}
 
-    ImagesModule() {
-        SharedLibrary library(module_path("libkinora_images.so"), "images other than PNG are read",
-                              "libopenimageio2.4");
-        KINORA_IMAGES_FUNCTIONS(KINORA_LIBRARY_BIND)
-        error = library.error();
-    }
+    KINORA_FUNCTION(kinora_decode_image);
+    KINORA_FUNCTION(kinora_free_image);
 };
 
 const ImagesModule& images_module() {
-    static const ImagesModule module;
-    return module;
+    return opened<ImagesModule>();
 }
 
 constexpr size_t kPngHeader = 29;  // signature, then IHDR: width 16, height 20, depth 24, method 28
@@ -85,7 +79,7 @@ int png_channels(const Header& header, const std::vector<uint8_t>& rgba) {
 
 std::string read_plain_png(const std::string& path, const Header& header, TextureImage& image) {
     std::optional<Image8> pixels = read_png(path);
-    if (!libpng().error.empty()) return libpng().error;
+    if (!libpng().error().empty()) return libpng().error();
     if (!pixels) return "the PNG file is damaged";
     image.width = pixels->width;
     image.height = pixels->height;
@@ -142,7 +136,7 @@ std::string first_line(const std::string& text) {
 
 std::string read_by_module(const std::string& path, TextureImage& image) {
     const ImagesModule& module = images_module();
-    if (!module.error.empty()) return module.error;
+    if (!module.error().empty()) return module.error();
     KinoraImage source;
     if (module.kinora_decode_image(path.c_str(), kMaxTexturePixels, &source) != 0)
         return source.error[0] ? first_line(source.error) : "unknown format";

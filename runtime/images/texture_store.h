@@ -68,7 +68,7 @@ class TextureStore {
     void each_image(const std::function<void(const StoredImage&)>& see) const;
 
   private:
-    static constexpr int kChunkBits = 10, kChunks = 1 << 14;
+    static constexpr int kChunkBits = 12, kChunks = 1 << 12;
     using Chunk = std::array<std::atomic<const Texture*>, 1 << kChunkBits>;
     const Texture* meet(int32_t name);
     const StoredImage* image(const std::string& name, bool data);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "runtime/base/memory/pages.h"
+
 namespace kinora {
 namespace {
 
@@ -43,6 +45,15 @@ TEST(Arena, ReleaseGivesBackWhatCameAfterTheMark) {
     arena.release(mark);
     EXPECT_EQ(arena.allocate(100), first);
     EXPECT_EQ(kept[0], 17);
+}
+
+TEST(Pages, ThatAreProvidedKeepWhatIsThere) {
+    std::vector<unsigned char> bytes(5 << 16);
+    for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = (unsigned char)(i * 7);
+    for (size_t first : {size_t(0), size_t(1), size_t(4095), size_t(4096)})
+        for (size_t count : {size_t(0), size_t(1), size_t(4096), bytes.size() - first})
+            provide_pages(bytes.data() + first, count);
+    for (size_t i = 0; i < bytes.size(); ++i) ASSERT_EQ(bytes[i], (unsigned char)(i * 7)) << i;
 }
 
 }  // namespace

@@ -51,6 +51,15 @@ class OpenedLibraries(ProgramTest):
         self.assertFalse(picture.exists())
         self.expect(run("kinora-convert", MATTE, self.folder / "b.dae", env=broken), 0)
 
+    def test_threads(self):
+        """Embree needs the scheduler, too; what traces no rays works on one thread."""
+        broken = self.without(r"libtbb\.so\.\d+")
+        result = render(MATTE, "-o", self.folder / "a.png", *SMALL, "--threads", "2", env=broken)
+        self.expect_told(result, 3, "loops are shared among threads", r"libkinora_tasks\.so",
+                         "libtbb12")
+        self.expect_told(result, 3, "rays are traced", r"libembree3\.so\.\d+", "libembree3-3")
+        self.expect(run("kinora-convert", MATTE, self.folder / "b.dae", env=broken), 0)
+
     def test_pictures(self):
         for pattern, suffix, purpose, file, package in (
                 (r"libpng16\.so\.\d+", "png", "PNG pictures are read and written",

@@ -2,6 +2,7 @@
 #include "runtime/base/file_extension.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/heap.h"
 #include "runtime/programs/convert/convert.h"
 
 namespace kinora {
@@ -83,6 +84,7 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_heap(kinora::kHeapOfStart);
     kinora::ConvertOptions options;
     if (std::optional<int> code = kinora::parse_convert_options(argc, argv, options))
         return kinora::finish(*code, "kinora-convert");

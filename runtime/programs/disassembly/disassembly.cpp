@@ -23,24 +23,21 @@ constexpr Machine kMachines[] = {{"avx2", CS_ARCH_X86, CS_MODE_64},
                                  {"avx512", CS_ARCH_X86, CS_MODE_64},
                                  {"neon", CS_ARCH_ARM64, CS_MODE_LITTLE_ENDIAN}};
 
-#define KINORA_CAPSTONE_FUNCTIONS(X) X(cs_open) X(cs_option) X(cs_disasm) X(cs_free) X(cs_close)
-
 // Capstone's functions, or why there are none. Its tables are large: it is opened when needed.
-struct Capstone {
-    KINORA_CAPSTONE_FUNCTIONS(KINORA_LIBRARY_MEMBER)
-    std::string error;
+struct Capstone : SharedLibrary {
+    Capstone()
+        : SharedLibrary(KINORA_CAPSTONE_LIBRARY, "machine code is listed",
+                        "libcapstone4, or dump another stage") {}
 
-    Capstone() {
-        SharedLibrary library(KINORA_CAPSTONE_LIBRARY, "machine code is listed",
-                              "libcapstone4, or dump another stage");
-        KINORA_CAPSTONE_FUNCTIONS(KINORA_LIBRARY_BIND)
-        error = library.error();
-    }
+    KINORA_FUNCTION(cs_open);
+    KINORA_FUNCTION(cs_option);
+    KINORA_FUNCTION(cs_disasm);
+    KINORA_FUNCTION(cs_free);
+    KINORA_FUNCTION(cs_close);
 };
 
 const Capstone& capstone() {
-    static const Capstone loaded;
-    return loaded;
+    return opened<Capstone>();
 }
 
 class Disassembler {
@@ -99,7 +96,7 @@ std::vector<MachineRun> machine_runs(const jit::Kernel& kernel, const SourceFile
                                      std::string& error) {
     const Machine* machine = machine_of(kernel);
     if (machine == nullptr) return {};
-    error = capstone().error;
+    error = capstone().error();
     if (!error.empty()) return {};
     Disassembler disassembler(*machine);
     if (!disassembler.is_open()) return {};

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <utility>
 
 #include "raytrace/ray_tracer.h"
@@ -17,6 +18,7 @@
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/heap.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/band_writer.h"
@@ -58,7 +60,8 @@ class Render {
     }
 
     int run() {
-        const std::jthread opening = raytrace::open_ray_tracer_early();
+        set_thread_count(options_.threads);
+        ready_heap(heap_of_scene(options_.scene));
         int code = load();
         printer_.summarize();
         if (code == kExitOk) code = printer_.exit_code(result());
@@ -139,7 +142,6 @@ void Render::flush_findings() {
 }
 
 int Render::load() {
-    set_thread_count(options_.threads);
     if (options_.findings.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
     Stopwatch watch;
     std::optional<ImportedScene> imported = import_requested(options_, diagnostics_);
@@ -501,11 +503,22 @@ int Render::tradeoff() {
     return broken.empty() ? kExitOk : kExitSomeFailed;
 }
 
+// Of a word of the command line.
+bool names_file(const char* word) {
+    std::error_code code;
+    return std::filesystem::is_regular_file(word, code);
+}
+
 }  // namespace
 
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_heap(kinora::kHeapOfStart);
+    // Where a file is named a scene will be traced: not for --version.
+    std::jthread opening;
+    if (std::any_of(argv + std::min(argc, 1), argv + argc, kinora::names_file))
+        opening = kinora::raytrace::open_ray_tracer_early();
     kinora::RenderOptions options;
     if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
         return kinora::finish(*code, "kinora-render");

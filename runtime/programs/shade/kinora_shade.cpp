@@ -8,6 +8,7 @@
 
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/heap.h"
 
 namespace kinora {
 
@@ -28,6 +29,7 @@ constexpr Command kCommands[] = {
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_heap(kinora::kHeapOfStart);
     kinora::ShadeOptions options;
     if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options))
         return kinora::finish(*code, "kinora-shade");

@@ -224,7 +224,7 @@ std::string check_foreign(const collada::ForeignElements& what) {
     // The types of schemas are made at first use, unguarded.
     static std::mutex mutex;
     std::lock_guard lock(mutex);
-    if (!xml().error.empty()) return xml().error;
+    if (!xml().error().empty()) return xml().error();
     start_libxml();
     std::string why;
     Owned<xmlSchema> schema = read_schema(what, why);

@@ -7,40 +7,47 @@
 #include <libxml/uri.h>
 #include <libxml/xmlschemas.h>
 
-#include <string>
-
 #include "runtime/base/shared_library.h"
 
 namespace kinora {
 
-// xmlFree is a variable that holds a function.
-#define KINORA_XML_FUNCTIONS(X)                                                                    \
-    X(xmlAddChild)                                                                                 \
-    X(xmlDocSetRootElement) X(xmlFree) X(xmlFreeDoc) X(xmlInitParser) X(xmlNewDoc)                 \
-        X(xmlNewIOInputStream) X(xmlNewNode) X(xmlNewNs) X(xmlNewNsProp) X(xmlNewText)             \
-            X(xmlParserInputBufferCreateMem) X(xmlSchemaFree) X(xmlSchemaFreeParserCtxt)           \
-                X(xmlSchemaFreeValidCtxt) X(xmlSchemaNewParserCtxt) X(xmlSchemaNewValidCtxt)       \
-                    X(xmlSchemaParse) X(xmlSchemaSetParserStructuredErrors)                        \
-                        X(xmlSchemaSetValidStructuredErrors) X(xmlSchemaValidateOneElement)        \
-                            X(xmlSearchNs) X(xmlSetExternalEntityLoader) X(xmlSetGenericErrorFunc) \
-                                X(xmlSetNs) X(xmlStrdup) X(xmlURIUnescapeString)
-
 // libxml2's functions, or why there are none. With the Unicode tables that it links it costs a
 // start as much as our own code.
-struct Xml {
-    KINORA_XML_FUNCTIONS(KINORA_LIBRARY_MEMBER)
-    std::string error;
+// xmlFree is a variable that holds a function.
+struct Xml : SharedLibrary {
+    Xml() : SharedLibrary(KINORA_XML_LIBRARY, "schemas of other makers are read", "libxml2") {}
 
-    Xml() {
-        SharedLibrary library(KINORA_XML_LIBRARY, "schemas of other makers are read", "libxml2");
-        KINORA_XML_FUNCTIONS(KINORA_LIBRARY_BIND)
-        error = library.error();
-    }
+    KINORA_FUNCTION(xmlAddChild);
+    KINORA_FUNCTION(xmlDocSetRootElement);
+    KINORA_FUNCTION(xmlFree);
+    KINORA_FUNCTION(xmlFreeDoc);
+    KINORA_FUNCTION(xmlInitParser);
+    KINORA_FUNCTION(xmlNewDoc);
+    KINORA_FUNCTION(xmlNewIOInputStream);
+    KINORA_FUNCTION(xmlNewNode);
+    KINORA_FUNCTION(xmlNewNs);
+    KINORA_FUNCTION(xmlNewNsProp);
+    KINORA_FUNCTION(xmlNewText);
+    KINORA_FUNCTION(xmlParserInputBufferCreateMem);
+    KINORA_FUNCTION(xmlSchemaFree);
+    KINORA_FUNCTION(xmlSchemaFreeParserCtxt);
+    KINORA_FUNCTION(xmlSchemaFreeValidCtxt);
+    KINORA_FUNCTION(xmlSchemaNewParserCtxt);
+    KINORA_FUNCTION(xmlSchemaNewValidCtxt);
+    KINORA_FUNCTION(xmlSchemaParse);
+    KINORA_FUNCTION(xmlSchemaSetParserStructuredErrors);
+    KINORA_FUNCTION(xmlSchemaSetValidStructuredErrors);
+    KINORA_FUNCTION(xmlSchemaValidateOneElement);
+    KINORA_FUNCTION(xmlSearchNs);
+    KINORA_FUNCTION(xmlSetExternalEntityLoader);
+    KINORA_FUNCTION(xmlSetGenericErrorFunc);
+    KINORA_FUNCTION(xmlSetNs);
+    KINORA_FUNCTION(xmlStrdup);
+    KINORA_FUNCTION(xmlURIUnescapeString);
 };
 
 inline const Xml& xml() {
-    static const Xml table;
-    return table;
+    return opened<Xml>();
 }
 
 }  // namespace kinora
