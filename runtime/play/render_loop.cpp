@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -26,6 +27,7 @@ double sum_of(const FrameStats& stats, std::initializer_list<Stage> stages) {
 }
 
 constexpr size_t kTimes = 120;
+constexpr double kForEver = std::numeric_limits<double>::infinity();
 constexpr int kSomeShare = 8;     // a pass of a share of the samples comes before the whole
 constexpr int kManySamples = 16;  // where there are at least so many
 constexpr int kCostTile = 8;      // pixels a side, that costs are measured in
@@ -98,7 +100,7 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
     {
         std::lock_guard lock(mutex_);
         scene_ = std::move(scene);
-        if (scene_->replaces_camera) begins_ = true;
+        if (scene_->replaces_camera) begins_ = unpaced_ = true;
         swaps_.clear();
         next_ = Pass::Quick;
         stop_ = 1;
@@ -205,10 +207,15 @@ void RenderLoop::run() {
         if (renders) {
             ++frames_;
             step->first = begins_;
+            if (std::exchange(unpaced_, false)) memory_->pacer.begin();
+            memory_->pacer.aim_at(1000 / std::max(step->order.hold_rate, 1e-3));
+            const bool limited = step->pass == Pass::Quick && real_time_ && step->order.adapt;
+            limit_ = limited ? memory_->pacer.limit() : kForEver;
+            cut_ = false;
             in_work_ = *step;
             work_began_.restart();
+            if (limited) overtaken_.notify_one();
         }
-        if (renders && begins_) memory_->pacer.begin();
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {
@@ -238,10 +245,9 @@ void RenderLoop::run() {
     }
 }
 
-// With the lock. Does something wait for the end of the quick frame in work? Time that goes by
-// never ends a frame, and no move a scene's first one.
+// With the lock. Does something wait for the end of the quick frame in work? Time that goes by is
+// nothing to wait for, and no move ends a scene's first one.
 bool RenderLoop::is_overtaken() const {
-    if (!in_work_ || !real_time_ || stop_) return false;
     if (!questions_.empty() && !questions_.front().posed) return true;
     if (in_work_->first) return false;
     ViewOrder then = in_work_->order;
@@ -249,22 +255,31 @@ bool RenderLoop::is_overtaken() const {
     return !then.same_picture(order_);
 }
 
+// With the lock. Milliseconds until the frame in work is let go, if it is not ready by then.
+double RenderLoop::time_left() const {
+    if (!in_work_ || !real_time_ || stop_) return kForEver;
+    double most = limit_;
+    if (is_overtaken()) {
+        auto whole = std::find_if(times_.rbegin(), times_.rend(),
+                                  [](const StageTimes& times) { return !times.cancelled; });
+        most = std::min(most, patience_ms(order_.hold_rate, size_t(whole - times_.rbegin())));
+    }
+    return most - work_began_.ms();
+}
+
 // A thread of its own: a frame that takes long looks at `stop_` alone.
 void RenderLoop::end_late_frames() {
     std::unique_lock lock(mutex_);
     while (!quit_) {
-        if (!is_overtaken()) {
-            overtaken_.wait(lock);
-            continue;
-        }
-        auto whole = std::find_if(times_.rbegin(), times_.rend(),
-                                  [](const StageTimes& times) { return !times.cancelled; });
-        double left =
-            patience_ms(order_.hold_rate, size_t(whole - times_.rbegin())) - work_began_.ms();
-        if (left <= 0)
+        const double left = time_left();
+        if (left <= 0) {
+            cut_ = work_began_.ms() >= limit_;
             stop_ = 1;
-        else
+        } else if (left < kForEver) {
             overtaken_.wait_for(lock, std::chrono::duration<double, std::milli>(left));
+        } else {
+            overtaken_.wait(lock);
+        }
     }
 }
 
@@ -410,14 +425,23 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     }
     times.total = watch.ms();
     times.at = since_start_.ms();
-    double target = 1000 / std::max(step.order.hold_rate, 1e-3);
-    // A frame that was ended early says nothing, unless it was late already.
-    if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
-        memory_->pacer.aim_at(target);
-        memory_->pacer.add(times.total,
-                           times.animate + times.skin + times.refit + times.present - filter);
-    }
+    if (step.pass == Pass::Quick && real_time_)
+        pace(times, outcome.whole, times.animate + times.skin + times.refit + times.present - filter);
     return outcome;
+}
+
+// A frame that was ended early for something else says nothing, unless it was late already.
+void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
+    bool cut = false;
+    {
+        std::lock_guard lock(mutex_);
+        cut = cut_ && !whole;
+    }
+    Pacer& pacer = memory_->pacer;
+    if (cut)
+        pacer.cut(times.total, fixed);
+    else if (whole || pacer.is_late(times.total))
+        pacer.add(times.total, fixed);
 }
 
 bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,

@@ -71,11 +71,13 @@ class RenderLoop {
     void run();
     void end_late_frames();
     bool is_overtaken() const;
+    double time_left() const;
     std::optional<Step> next_step();
     void plan(Step& step) const;
     Pass after(const Step& step) const;
     void finish(const Step& step, const Outcome& outcome);
     Outcome make(const Step& step);
+    void pace(const StageTimes& times, bool whole, double fixed);
     bool render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
                 FrameStats& stats);
     bool render_quick(const Step& step, const FrameSettings& settings, Picture& to,
@@ -106,10 +108,13 @@ class RenderLoop {
     std::vector<FindingText> findings_;
     std::deque<StageTimes> times_;
     Pass next_ = Pass::Done;
-    bool begins_ = false;  // another scene: its first picture is to come soon
+    bool begins_ = false;   // another scene: its first picture is to come soon
+    bool unpaced_ = false;  // nothing is known of its times
     bool display_changed_ = false, working_ = false, quit_ = false;
     std::optional<Step> in_work_;
     Stopwatch work_began_;
+    double limit_ = 0;  // ms that it may take
+    bool cut_ = false;  // it took longer
     const Stopwatch since_start_;
     uint64_t frames_ = 0;
     // Of the thread.

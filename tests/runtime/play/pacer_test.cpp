@@ -115,6 +115,57 @@ TEST(Pacer, BeginsWithTheFewestPixels) {
     EXPECT_EQ(slow, (std::vector<double>{0.25, 0.25, 0.25}));
 }
 
+// Load from outside that makes everything eight times as slow for a while.
+TEST(Pacer, IsBackWithinTenFramesAfterALoad) {
+    Pacer pacer = pacer_at_target();
+    std::vector<double> ms(60, 40);
+    ms.resize(90, 320);
+    ms.resize(200, 40);
+    const std::vector<double> scale = scales(pacer, ms, 2);
+    EXPECT_LE(scale[95 - 6], 0.36);
+    for (size_t k = 100; k < 200; ++k) EXPECT_EQ(scale[k], scale[59]) << k;
+    EXPECT_GT(scale[59], 0.8);
+}
+
+// A frame that nobody has waited for: the next one has a sixteenth of its pixels, and the size that
+// holds the rate follows from its time.
+TEST(Pacer, ACutFrameIsFollowedByASmallOne) {
+    Pacer pacer = pacer_at_target();
+    scales(pacer, std::vector<double>(20, 30));
+    EXPECT_LT(pacer.limit(), 250);
+    EXPECT_GT(pacer.limit(), 4 * kTarget);
+    pacer.cut(pacer.limit());
+    EXPECT_EQ(pacer.scale(), 0.25);
+    const std::vector<double> slow = scales(pacer, std::vector<double>(20, 500));
+    EXPECT_EQ(slow.back(), 0.25);  // 31 ms
+    pacer.cut(pacer.limit());
+    EXPECT_EQ(pacer.scale(), 1 / 16.0);
+    EXPECT_TRUE(std::isinf(pacer.limit()));  // there is none that would be done sooner
+    EXPECT_EQ(scales(pacer, std::vector<double>(20, 20)).back(), 1);
+}
+
+// Where the usual sizes take several times what they may, still smaller ones do not.
+TEST(Pacer, IsStillSmallerWhereFewPixelsTakeLong) {
+    for (double whole : {2000.0, 2600.0}) {
+        Pacer pacer = pacer_at_target();
+        EXPECT_EQ(scales(pacer, std::vector<double>(20, whole)).back(), 0.25) << whole;
+    }
+    for (double whole : {3000.0, 8000.0, 30000.0}) {
+        Pacer pacer = pacer_at_target();
+        const double scale = scales(pacer, std::vector<double>(20, whole)).back();
+        EXPECT_LE(whole * scale * scale, 5 * kTarget) << whole;
+        EXPECT_GT(whole * scale * scale, 3 * kTarget) << whole;
+    }
+    // What takes the time whatever the size is no reason to be smaller.
+    Pacer pacer = pacer_at_target();
+    double ms = 0;
+    for (int k = 0; k < 100; ++k) {
+        ms = 400 + 300 * pacer.scale() * pacer.scale();
+        pacer.add(ms, 400);
+    }
+    EXPECT_EQ(pacer.scale(), 0.25);
+}
+
 TEST(Pacer, StopsAtItsSmallestSize) {
     Pacer pacer = pacer_at_target();
     EXPECT_EQ(scales(pacer, std::vector<double>(50, 1e5)).back(),
