@@ -16,8 +16,8 @@ namespace kinora {
 
 namespace {
 
-constexpr double kLate = 5;         // times the target: what the smallest pictures may take
-constexpr double kTooLate = 6;      // no frame is waited for any longer
+constexpr double kSmallMay = 5;         // times the target: what the smallest pictures may take
+constexpr double kIsCut = 6;      // no frame is waited for any longer
 constexpr double kFirstMay = 4;     // times that: a scene's first frame fills buffers and caches
 constexpr size_t kCutSteps = 16;    // a sixteenth of the pixels
 
@@ -45,7 +45,7 @@ void Pacer::begin() {
 double Pacer::load(const Cost& cost, size_t step) const {
     const double pixels = cost.whole * scale_of(step) * scale_of(step);
     const double usual = (cost.fixed + pixels) / target_;
-    return step + 1 < kUsualSteps ? usual : std::min(usual, pixels / (kLate * target_));
+    return step + 1 < kUsualSteps ? usual : std::min(usual, pixels / (kSmallMay * target_));
 }
 
 // The median of what the last frames say; of fewer than three the least.
@@ -112,7 +112,7 @@ void Pacer::add(double ms, double fixed_ms) {
 
 double Pacer::limit() const {
     if (step_ + 1 >= kSteps) return std::numeric_limits<double>::infinity();
-    const double pixels = kTooLate * target_ * (first_ ? kFirstMay : 1);
+    const double pixels = kIsCut * target_ * (first_ ? kFirstMay : 1);
     return pixels + (known_ > 0 ? recent_[0].fixed : 0);
 }
 
