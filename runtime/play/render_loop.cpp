@@ -210,7 +210,7 @@ void RenderLoop::run() {
             if (std::exchange(unpaced_, false)) memory_->pacer.begin();
             memory_->pacer.aim_at(1000 / std::max(step->order.hold_rate, 1e-3));
             const bool limited = step->pass == Pass::Quick && real_time_ && step->order.adapt;
-            limit_ = limited ? memory_->pacer.limit() : kForEver;
+            limit_ = limited ? memory_->pacer.limit(step->order.playing) : kForEver;
             cut_ = false;
             in_work_ = *step;
             work_began_.restart();

@@ -20,6 +20,7 @@ constexpr double kSmallMay = 5;         // times the target: what the smallest p
 constexpr double kIsCut = 6;      // no frame is waited for any longer
 constexpr double kFirstMay = 4;     // times that: a scene's first frame fills buffers and caches
 constexpr size_t kCutSteps = 16;    // a sixteenth of the pixels
+constexpr double kMostInVain = 2000;  // ms
 
 }  // namespace
 
@@ -33,6 +34,7 @@ double Pacer::scale() const {
 
 void Pacer::begin() {
     known_ = 0;
+    in_vain_ = 0;
     calm_ = 0;
     patience_ = kFirstPatience;
     since_larger_ = kMostPatience;
@@ -94,11 +96,13 @@ void Pacer::grow() {
     size_t step = step_ - 1;
     while (step > 0 && most_load(step - 1, frames) <= kRoom) --step;
     step_ = step;
+    known_ = std::min(known_, frames);  // those before were of another load
     calm_ = 0;
     since_larger_ = 0;
 }
 
 void Pacer::add(double ms, double fixed_ms) {
+    in_vain_ = 0;
     if (std::exchange(first_, false)) {  // with what is done once, it says little of the others
         if (ms <= target_) step_ = 0;
         return;
@@ -110,8 +114,10 @@ void Pacer::add(double ms, double fixed_ms) {
     if (calm_ >= patience_) grow();
 }
 
-double Pacer::limit() const {
-    if (step_ + 1 >= kSteps) return std::numeric_limits<double>::infinity();
+double Pacer::limit(bool time_goes_on) const {
+    const bool is_smallest = step_ + 1 >= kSteps;
+    if (is_smallest && (!time_goes_on || in_vain_ >= kMostInVain))
+        return std::numeric_limits<double>::infinity();
     const double pixels = kIsCut * target_ * (first_ ? kFirstMay : 1);
     return pixels + (known_ > 0 ? recent_[0].fixed : 0);
 }
@@ -119,6 +125,7 @@ double Pacer::limit() const {
 void Pacer::cut(double ms, double fixed_ms) {
     first_ = false;
     known_ = 0;
+    in_vain_ += ms;
     remember(ms, fixed_ms);
     become_smaller(std::min(step_ + kCutSteps, kSteps - 1));
 }

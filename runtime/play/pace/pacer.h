@@ -19,8 +19,9 @@ class Pacer {
     // Another scene, of which nothing is known: its first frame has few pixels.
     void begin();
     // The next frame is not waited for any longer than these ms: a smaller one is done sooner.
-    // Infinite where there is no smaller one.
-    double limit() const;
+    // Of the smallest size it is waited for without end, while time goes on only where no frame was
+    // done for two seconds.
+    double limit(bool time_goes_on) const;
     // The last frame was let go after so many ms: nobody knows how long it would have taken.
     void cut(double ms, double fixed_ms = 0);
 
@@ -53,6 +54,7 @@ class Pacer {
     bool first_ = false;                  // the next time is that of a scene's first frame
     std::array<Cost, kWindow> recent_{};  // the newest first
     size_t known_ = 0;                    // of them
+    double in_vain_ = 0;                  // ms of the frames let go since the last that was done
     int calm_ = 0;                        // frames for which a larger picture would have fitted
     int patience_ = kFirstPatience;       // so many of them make it larger
     int since_larger_ = kMostPatience;    // frames since it last became larger
