@@ -55,7 +55,8 @@ struct RenderLoop::Memory {
     uint64_t serial = 0;
     raytrace::Film enlarged;
     Pacer pacer;
-    FirstHits first;  // of the picture in work
+    FirstHits first;      // of the picture in work
+    double guide_ms = 0;  // of its rays that say where edges are: pictures of more pixels need none
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
     std::shared_ptr<ShownScene> filtered;
@@ -378,6 +379,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     to->costs = {};
     if (shows_costs(step.display.aov)) measure_costs(settings, to->costs);
     memory_->follow(step);
+    memory_->guide_ms = 0;
     const bool filters = is_filtered(step);
     if (filters || step.scale < 1) {
         settings.insight.first = &memory_->first;
@@ -426,7 +428,8 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     times.total = watch.ms();
     times.at = since_start_.ms();
     if (step.pass == Pass::Quick && real_time_)
-        pace(times, outcome.whole, times.animate + times.skin + times.refit + times.present - filter);
+        pace(times, outcome.whole,
+             times.animate + times.skin + times.refit + times.present - filter - memory_->guide_ms);
     return outcome;
 }
 
@@ -438,10 +441,11 @@ void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
         cut = cut_ && !whole;
     }
     Pacer& pacer = memory_->pacer;
+    const double ms = times.total - memory_->guide_ms;
     if (cut)
-        pacer.cut(times.total, fixed);
-    else if (whole || pacer.is_late(times.total))
-        pacer.add(times.total, fixed);
+        pacer.cut(ms, fixed);
+    else if (whole || pacer.is_late(ms))
+        pacer.add(ms, fixed);
 }
 
 bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
@@ -544,8 +548,8 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
         make_guide(scene, to.width, to.height, to.guide);
     else if (small && (2 * film->width >= to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
-    else if (small)  // a quarter of the rays says where the edges are
-        make_guide(scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
+    else if (small)
+        guide_small(scene, to);
     else
         to.guide = {};
     if (small) {
@@ -556,6 +560,14 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     if (small && !shows_guide(display.aov) && !shows_costs(display.aov))
         display.aov.clear();  // planes come with all pixels
     show_film(*film, display, to);
+}
+
+// Rays say where the edges are: four for each pixel of the film, and no more than for a quarter of
+// those shown.
+void RenderLoop::guide_small(const Scene& scene, Picture& to) {
+    StageTimer timer(memory_->guide_ms);
+    make_guide(scene, std::min(2 * to.film.width, (to.width + 1) / 2),
+               std::min(2 * to.film.height, (to.height + 1) / 2), to.guide);
 }
 
 void RenderLoop::answer(const Step& step) {

@@ -88,6 +88,7 @@ class RenderLoop {
                         FrameStats& stats);
     bool is_filtered(const Step& step) const;
     void finish_picture(const Step& step, Picture& to);
+    void guide_small(const Scene& scene, Picture& to);
     void redisplay(const Step& step);
     void answer(const Step& step);
     std::shared_ptr<Picture> free_picture();

@@ -110,7 +110,7 @@ TEST(Swap, ReadsThePictureThatATextNames) {
     edits.texts.push_back({"wall-material", file,
                            "surface plaster(float Ka = 1; float Kd = 0.9; float unevenness = 0.12;"
                            " color surface_color = color(0.05, 0.16, 0.17);) {"
-                           " Oi = 1; Ci = color texture(\"" +
+                           " Oi = Os; Ci = Os * Cs * color texture(\"" +
                                scene_path("scenes/studio_tiles.png") + "\", s, t); }",
                            1});
     maker.edit(edits);
