@@ -56,6 +56,7 @@ struct RenderLoop::Memory {
     raytrace::Film enlarged;
     Pacer pacer;
     FirstHits first;      // of the picture in work
+    PictureGuide hits;    // they, where it is small
     double guide_ms = 0;  // of its rays that say where edges are: pictures of more pixels need none
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
@@ -562,12 +563,12 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     show_film(*film, display, to);
 }
 
-// Rays say where the edges are: four for each pixel of the film, and no more than for a quarter of
-// those shown.
+// Rays say where the edges are, beside those that the film's own hits show: a quarter as many as
+// pixels shown, at most.
 void RenderLoop::guide_small(const Scene& scene, Picture& to) {
     StageTimer timer(memory_->guide_ms);
-    make_guide(scene, std::min(2 * to.film.width, (to.width + 1) / 2),
-               std::min(2 * to.film.height, (to.height + 1) / 2), to.guide);
+    take_guide(memory_->first, to.view, memory_->hits);
+    refine_guide(scene, memory_->hits, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
 }
 
 void RenderLoop::answer(const Step& step) {
