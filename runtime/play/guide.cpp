@@ -147,7 +147,8 @@ std::vector<uint8_t> beside_edges(const PictureGuide& guide) {
             if (are_alike(kNoEdge, place_at(guide, x, y), place_at(guide, right, y),
                           place_at(guide, x, below), place_at(guide, right, below)))
                 continue;
-            edges[at(x, y)] = edges[at(right, y)] = edges[at(x, below)] = edges[at(right, below)] = 1;
+            edges[at(x, y)] = edges[at(right, y)] = edges[at(x, below)] = edges[at(right, below)] =
+                1;
         }
     return edges;
 }
@@ -223,8 +224,7 @@ class Enlargement {
     }
 
     void weigh(int x, int y, const size_t (&from)[4], float (&weight)[4]) const {
-        const Place here =
-            place_at(guide_, guide_columns_[size_t(x)], guide_rows_[size_t(y)]);
+        const Place here = place_at(guide_, guide_columns_[size_t(x)], guide_rows_[size_t(y)]);
         float weights = 0;
         for (int k = 0; k < 4; ++k) {
             weight[k] = (weight[k] + 1e-3f) * likeness(here, centers_[from[k]]);
@@ -238,7 +238,7 @@ class Enlargement {
     raytrace::Film& out_;
     std::vector<Neighbors> columns_, rows_;
     std::vector<int> guide_columns_, guide_rows_;
-    std::vector<Place> centers_;   // at the small pixels' centers
+    std::vector<Place> centers_;  // at the small pixels' centers
     std::vector<uint8_t> alike_;
 };
 

@@ -63,8 +63,10 @@ struct RenderLoop::Memory {
     std::shared_ptr<ShownScene> filtered;
     double exposure = 0;
     uint32_t only_light = kNone;
-    bool noisy = true;  // as far as is known
+    bool noisy = true;                  // as far as is known
+    std::shared_ptr<ShownScene> paced;  // of whose times something is known
     void follow(const Step& step);
+    void pace(const std::shared_ptr<ShownScene>& scene, bool begins);
     std::optional<ViewOrder>
         dices_for;  // what the redicer was started for; none: a smaller picture
 };
@@ -79,6 +81,11 @@ void RenderLoop::Memory::follow(const Step& step) {
     only_light = step.order.only_light;
     denoiser.forget();
     noisy = true;
+}
+
+void RenderLoop::Memory::pace(const std::shared_ptr<ShownScene>& scene, bool begins) {
+    if (begins && paced != scene) pacer.begin();
+    paced = scene;
 }
 
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
@@ -102,7 +109,7 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
     {
         std::lock_guard lock(mutex_);
         scene_ = std::move(scene);
-        if (scene_->replaces_camera) begins_ = unpaced_ = true;
+        if (scene_->replaces_camera) begins_ = true;
         swaps_.clear();
         next_ = Pass::Quick;
         stop_ = 1;
@@ -209,13 +216,13 @@ void RenderLoop::run() {
         if (renders) {
             ++frames_;
             step->first = begins_;
-            if (std::exchange(unpaced_, false)) memory_->pacer.begin();
+            memory_->pace(step->scene, begins_);
             memory_->pacer.aim_at(1000 / std::max(step->order.hold_rate, 1e-3));
             const bool limited = step->pass == Pass::Quick && real_time_ && step->order.adapt;
-            limit_ = limited ? memory_->pacer.limit(step->order.playing) : kForEver;
-            cut_ = false;
+            work_.limit = limited ? memory_->pacer.limit(step->order.playing) : kForEver;
+            work_.cut = false;
             in_work_ = *step;
-            work_began_.restart();
+            work_.began.restart();
             if (limited) overtaken_.notify_one();
         }
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
@@ -260,13 +267,13 @@ bool RenderLoop::is_overtaken() const {
 // With the lock. Milliseconds until the frame in work is let go, if it is not ready by then.
 double RenderLoop::time_left() const {
     if (!in_work_ || !real_time_ || stop_) return kForEver;
-    double most = limit_;
+    double most = work_.limit;
     if (is_overtaken()) {
         auto whole = std::find_if(times_.rbegin(), times_.rend(),
                                   [](const StageTimes& times) { return !times.cancelled; });
         most = std::min(most, patience_ms(order_.hold_rate, size_t(whole - times_.rbegin())));
     }
-    return most - work_began_.ms();
+    return most - work_.began.ms();
 }
 
 // A thread of its own: a frame that takes long looks at `stop_` alone.
@@ -275,7 +282,7 @@ void RenderLoop::end_late_frames() {
     while (!quit_) {
         const double left = time_left();
         if (left <= 0) {
-            cut_ = work_began_.ms() >= limit_;
+            work_.cut = work_.began.ms() >= work_.limit;
             stop_ = 1;
         } else if (left < kForEver) {
             overtaken_.wait_for(lock, std::chrono::duration<double, std::milli>(left));
@@ -439,7 +446,7 @@ void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
     bool cut = false;
     {
         std::lock_guard lock(mutex_);
-        cut = cut_ && !whole;
+        cut = work_.cut && !whole;
     }
     Pacer& pacer = memory_->pacer;
     const double ms = times.total - memory_->guide_ms;

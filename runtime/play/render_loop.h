@@ -109,13 +109,14 @@ class RenderLoop {
     std::vector<FindingText> findings_;
     std::deque<StageTimes> times_;
     Pass next_ = Pass::Done;
-    bool begins_ = false;   // another scene: its first picture is to come soon
-    bool unpaced_ = false;  // nothing is known of its times
+    bool begins_ = false;  // another scene: its first picture is to come soon
     bool display_changed_ = false, working_ = false, quit_ = false;
     std::optional<Step> in_work_;
-    Stopwatch work_began_;
-    double limit_ = 0;  // ms that it may take
-    bool cut_ = false;  // it took longer
+    struct Work {
+        Stopwatch began;
+        double limit = 0;  // ms that it may take
+        bool cut = false;  // it took longer
+    } work_;
     const Stopwatch since_start_;
     uint64_t frames_ = 0;
     // Of the thread.

@@ -177,8 +177,7 @@ TEST(ClassEdits, OfADisplacementMoveTheMesh) {
               "");
     EXPECT_EQ(middle(player), byte_of(0.25));
     EXPECT_EQ(player.shader().shown, player.shader().version);
-    EXPECT_EQ(shown(player),
-              shown_of(document(with(kLifts, "amount * n", "0.5 * amount * n"))));
+    EXPECT_EQ(shown(player), shown_of(document(with(kLifts, "amount * n", "0.5 * amount * n"))));
     EXPECT_EQ(played.script("param amount 1.5"), "");
     EXPECT_EQ(middle(player), byte_of(0.75));
 

@@ -1,4 +1,4 @@
-// runtime/base/large_pages.h: fewer page faults for programs that fill much memory soon.
+// runtime/programs/common/large_pages.h: fewer page faults for programs that fill much memory soon.
 #pragma once
 
 namespace kinora {

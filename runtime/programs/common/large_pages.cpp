@@ -1,5 +1,5 @@
-// runtime/base/large_pages.cpp: the heap is made long at once, and the kernel is told.
-#include "runtime/base/large_pages.h"
+// runtime/programs/common/large_pages.cpp: the heap is made long at once, and the kernel is told.
+#include "runtime/programs/common/large_pages.h"
 
 #include <malloc.h>
 #include <sys/mman.h>
@@ -13,10 +13,10 @@ namespace kinora {
 
 namespace {
 
-constexpr int kReserved = 1 << 30;      // bytes of address space; memory when it is used
-constexpr uintptr_t kLarge = 2 << 20;   // a large page
-constexpr int kGrowth = 16 << 20;       // of a heap that needs more than that
-constexpr int kMappedFrom = 32 << 20;   // larger blocks are mapped by themselves, as usual
+constexpr int kReserved = 1 << 30;     // bytes of address space; memory when it is used
+constexpr uintptr_t kLarge = 2 << 20;  // a large page
+constexpr int kGrowth = 16 << 20;      // of a heap that needs more than that
+constexpr int kMappedFrom = 32 << 20;  // larger blocks are mapped by themselves, as usual
 
 bool is_limited(__rlimit_resource_t what) {
     rlimit limit{};
@@ -33,7 +33,7 @@ void use_large_pages() {
     mallopt(M_TRIM_THRESHOLD, kReserved + 2 * kMappedFrom);
     mallopt(M_TOP_PAD, kReserved);
     const auto before = reinterpret_cast<uintptr_t>(sbrk(0));
-    void* more = std::malloc(kMappedFrom / 2);  // than is there
+    void* more = std::malloc(kMappedFrom / 2);         // than is there
     if (more) *static_cast<volatile char*>(more) = 0;  // else compilers leave both calls away
     std::free(more);
     mallopt(M_TOP_PAD, kGrowth);
