@@ -150,6 +150,8 @@ void CallBinder::end_builtin(CallExpr& e) {
     const auto* file = e.args.empty() ? nullptr : as_if<StringExpr>(e.args[0]);
     // A file that the shader will not be let to read.
     const AllowedPaths& files = builtin.effects & kNamesPoints ? options_.files : options_.pictures;
+    if (file && (builtin.effects & kNamesFile) && !(builtin.effects & kNamesPoints))
+        ast_.pictures.push_back(file->value);
     if (file && (builtin.effects & kNamesFile) && files.find(file->value).outside)
         reporter_.report(Code::RSL_FILE_OUTSIDE, file->span, file->value);
     if (!builtin.lower && options_.require_implemented)

@@ -455,6 +455,7 @@ struct Ast {
     std::vector<Function*> functions;  // at file level, in order
     std::vector<ShaderDefinition*> shaders;
     std::vector<StructDefinition*> structs;
+    std::vector<std::string_view> pictures;  // texts that calls name as pictures; set by the checker
     bool resizes = false;           // a call of resize(), push() or such stands in it
     bool resizable_arrays = false;  // a resizable array is declared
     uint32_t symbol_count = 0;      // of Symbol::id

@@ -173,6 +173,9 @@ void preload_textures(const SceneDescription& description, TextureStore& store) 
         for (const ParamSource& source : use.params)
             names.insert(names.end(), source.strings.begin(), source.strings.end());
         if (!use.shader) return;
+        if (use.shader->ast)
+            names.insert(names.end(), use.shader->ast->pictures.begin(),
+                         use.shader->ast->pictures.end());
         for (const rsl::ShaderParameter& parameter : use.shader->parameters)
             if (parameter.constant)
                 names.insert(names.end(), parameter.constant->strings.begin(),

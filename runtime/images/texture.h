@@ -37,7 +37,7 @@ void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current
 void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store);
 
 // Reads, in parallel, the images named by the string parameters of a scene's materials and lights,
-// so that no frame has to. Strings that name no file are no error: they may not be images at all.
+// and by the texts of their shaders, so that no frame has to. Strings that name no file are no error: they may not be images at all.
 void preload_textures(const SceneDescription& description, TextureStore& store);
 
 }  // namespace kinora

@@ -4,9 +4,12 @@
 #include "runtime/play/guide.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "runtime/base/parallel.h"
@@ -26,14 +29,15 @@ struct Centers {
     }
 };
 
-void trace_packet(const Scene& scene, const Centers& centers, size_t first, size_t count,
+void trace_packet(const Scene& scene, const Centers& centers, std::span<const uint32_t> pixels,
                   PictureGuide& guide, raytrace::TraceCounters& counters) {
+    const size_t count = pixels.size();
     raytrace::RayPacket16 rays{};
     raytrace::HitPacket16 hits;
     rays.coherent = true;
     rays.active = uint32_t((1u << count) - 1);
     for (size_t k = 0; k < count; ++k) {
-        dvec2 at = centers.of(first + k);
+        dvec2 at = centers.of(pixels[k]);
         raytrace::CameraRay ray = raytrace::camera_ray(centers.camera, at.x, at.y);
         rays.org_x[k] = ray.org.x, rays.org_y[k] = ray.org.y, rays.org_z[k] = ray.org.z;
         rays.dir_x[k] = ray.dir.x, rays.dir_y[k] = ray.dir.y, rays.dir_z[k] = ray.dir.z;
@@ -45,7 +49,7 @@ void trace_packet(const Scene& scene, const Centers& centers, size_t first, size
     uint32_t hit = scene.accel.intersect16(rays, hits, counters);
     vec3 forward(centers.camera.forward);
     for (size_t k = 0; k < count; ++k) {
-        size_t pixel = first + k;
+        const size_t pixel = pixels[k];
         if ((hit >> k & 1) == 0) {
             guide.surface[pixel] = kNone;
             guide.Ng[pixel] = vec3(0.0f);
@@ -122,6 +126,43 @@ FourFloats load(const vec4& from) {
     return to;
 }
 
+constexpr float kAlike = 0.98f;  // on one plane, as most neighbors are: the guide decides nothing
+constexpr float kNoEdge = 0.3f;  // on one surface, at least
+
+// Whether a pixel is that much like its right neighbor and the two below.
+bool are_alike(float much, const Place& here, const Place& right, const Place& below,
+               const Place& both) {
+    return likeness(here, right) > much && likeness(here, below) > much &&
+           likeness(here, both) > much;
+}
+
+// Of each pixel of a guide: whether an edge may lie within a pixel of its center.
+std::vector<uint8_t> beside_edges(const PictureGuide& guide) {
+    std::vector<uint8_t> edges(guide.surface.size());
+    const auto at = [&](int x, int y) { return size_t(y) * size_t(guide.width) + size_t(x); };
+    for (int y = 0; y < guide.height; ++y)
+        for (int x = 0; x < guide.width; ++x) {
+            const int right = std::min(x + 1, guide.width - 1),
+                      below = std::min(y + 1, guide.height - 1);
+            if (are_alike(kNoEdge, place_at(guide, x, y), place_at(guide, right, y),
+                          place_at(guide, x, below), place_at(guide, right, below)))
+                continue;
+            edges[at(x, y)] = edges[at(right, y)] = edges[at(x, below)] = edges[at(right, below)] =
+                1;
+        }
+    return edges;
+}
+
+// The same window in other pixels.
+raytrace::Camera camera_of(const Scene& scene, int width, int height) {
+    raytrace::Camera camera = scene.view;
+    camera.raster_dx *= double(camera.width) / width;
+    camera.raster_dy *= double(camera.height) / height;
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
+
 // One picture made of a smaller one.
 class Enlargement {
   public:
@@ -157,17 +198,12 @@ class Enlargement {
     }
     size_t at(int x, int y) const { return size_t(y) * size_t(small_.width) + size_t(x); }
 
-    // Whether a small pixel, its right neighbor and the two below lie on one plane, which most do:
-    // there the guide decides nothing.
     void find_alike(int y) {
-        constexpr float kAlike = 0.98f;
         const int below = std::min(y + 1, small_.height - 1);
         for (int x = 0; x < small_.width; ++x) {
             const int right = std::min(x + 1, small_.width - 1);
-            const Place& here = centers_[at(x, y)];
-            alike_[at(x, y)] = likeness(here, centers_[at(right, y)]) > kAlike &&
-                               likeness(here, centers_[at(x, below)]) > kAlike &&
-                               likeness(here, centers_[at(right, below)]) > kAlike;
+            alike_[at(x, y)] = are_alike(kAlike, centers_[at(x, y)], centers_[at(right, y)],
+                                         centers_[at(x, below)], centers_[at(right, below)]);
         }
     }
 
@@ -188,8 +224,7 @@ class Enlargement {
     }
 
     void weigh(int x, int y, const size_t (&from)[4], float (&weight)[4]) const {
-        const Place here =
-            place_at(guide_, guide_columns_[size_t(x)], guide_rows_[size_t(y)]);
+        const Place here = place_at(guide_, guide_columns_[size_t(x)], guide_rows_[size_t(y)]);
         float weights = 0;
         for (int k = 0; k < 4; ++k) {
             weight[k] = (weight[k] + 1e-3f) * likeness(here, centers_[from[k]]);
@@ -203,7 +238,7 @@ class Enlargement {
     raytrace::Film& out_;
     std::vector<Neighbors> columns_, rows_;
     std::vector<int> guide_columns_, guide_rows_;
-    std::vector<Place> centers_;   // at the small pixels' centers
+    std::vector<Place> centers_;  // at the small pixels' centers
     std::vector<uint8_t> alike_;
 };
 
@@ -212,22 +247,46 @@ class Enlargement {
 void make_guide(const Scene& scene, int width, int height, PictureGuide& guide) {
     size_t pixels = size_t(width) * size_t(height);
     guide.resize(width, height);
-    raytrace::Camera camera = scene.view;
-    // The same window in other pixels.
-    camera.raster_dx *= double(camera.width) / width;
-    camera.raster_dy *= double(camera.height) / height;
-    camera.width = width;
-    camera.height = height;
+    const raytrace::Camera camera = camera_of(scene, width, height);
     Centers centers{camera, size_t(width)};
     constexpr size_t kPackets = 64;  // a task
     size_t packets = (pixels + kPacket - 1) / kPacket;
     parallel_for(0, packets, kPackets, [&](size_t begin, size_t end) {
         raytrace::TraceCounters counters;
         for (size_t packet = begin; packet < end; ++packet) {
-            size_t first = packet * kPacket;
-            trace_packet(scene, centers, first, std::min<size_t>(kPacket, pixels - first), guide,
-                         counters);
+            std::array<uint32_t, kPacket> some;
+            std::iota(some.begin(), some.end(), uint32_t(packet * kPacket));
+            const size_t count = std::min<size_t>(kPacket, pixels - packet * kPacket);
+            trace_packet(scene, centers, std::span(some).first(count), guide, counters);
         }
+    });
+}
+
+void refine_guide(const Scene& scene, const PictureGuide& small, int width, int height,
+                  PictureGuide& guide) {
+    guide.resize(width, height);
+    const raytrace::Camera camera = camera_of(scene, width, height);
+    const Centers centers{camera, size_t(width)};
+    const std::vector<uint8_t> edges = beside_edges(small);
+    const std::vector<int> columns = cells(small.width, width), rows = cells(small.height, height);
+    parallel_for(0, size_t(height), 8, [&](size_t begin, size_t end) {
+        raytrace::TraceCounters counters;
+        std::array<uint32_t, kPacket> some;
+        size_t count = 0;
+        for (size_t y = begin; y < end; ++y)
+            for (size_t x = 0; x < size_t(width); ++x) {
+                const size_t pixel = y * size_t(width) + x,
+                             from = size_t(rows[y]) * size_t(small.width) + size_t(columns[x]);
+                guide.surface[pixel] = small.surface[from];
+                guide.Ng[pixel] = small.Ng[from];
+                guide.depth[pixel] = small.depth[from];
+                if (!edges[from]) continue;
+                some[count++] = uint32_t(pixel);
+                if (count < kPacket) continue;
+                trace_packet(scene, centers, some, guide, counters);
+                count = 0;
+            }
+        if (count) trace_packet(scene, centers, std::span(some).first(count), guide, counters);
     });
 }
 

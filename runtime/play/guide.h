@@ -14,6 +14,11 @@ void make_guide(const Scene& scene, int width, int height, PictureGuide& guide);
 // The same of the first hits of a film that was just rendered: a guide of its size.
 void take_guide(const FirstHits& hits, const raytrace::Camera& camera, PictureGuide& guide);
 
+// As make_guide(), with rays only beside edges of a smaller guide: elsewhere that one's pixels are
+// taken, and enlarge() does the same with both.
+void refine_guide(const Scene& scene, const PictureGuide& small, int width, int height,
+                  PictureGuide& guide);
+
 // `small` to a picture of that size, by a guide of any. A pixel mixes the four small ones around
 // it; those that lie on another surface, face elsewhere or are at another depth count next to
 // nothing.

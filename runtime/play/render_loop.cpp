@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -26,6 +27,7 @@ double sum_of(const FrameStats& stats, std::initializer_list<Stage> stages) {
 }
 
 constexpr size_t kTimes = 120;
+constexpr double kForEver = std::numeric_limits<double>::infinity();
 constexpr int kSomeShare = 8;     // a pass of a share of the samples comes before the whole
 constexpr int kManySamples = 16;  // where there are at least so many
 constexpr int kCostTile = 8;      // pixels a side, that costs are measured in
@@ -53,14 +55,18 @@ struct RenderLoop::Memory {
     uint64_t serial = 0;
     raytrace::Film enlarged;
     Pacer pacer;
-    FirstHits first;  // of the picture in work
+    FirstHits first;      // of the picture in work
+    PictureGuide hits;    // they, where it is small
+    double guide_ms = 0;  // of its rays that say where edges are: pictures of more pixels need none
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
     std::shared_ptr<ShownScene> filtered;
     double exposure = 0;
     uint32_t only_light = kNone;
-    bool noisy = true;  // as far as is known
+    bool noisy = true;                  // as far as is known
+    std::shared_ptr<ShownScene> paced;  // of whose times something is known
     void follow(const Step& step);
+    void pace(const std::shared_ptr<ShownScene>& scene, bool begins);
     std::optional<ViewOrder>
         dices_for;  // what the redicer was started for; none: a smaller picture
 };
@@ -75,6 +81,11 @@ void RenderLoop::Memory::follow(const Step& step) {
     only_light = step.order.only_light;
     denoiser.forget();
     noisy = true;
+}
+
+void RenderLoop::Memory::pace(const std::shared_ptr<ShownScene>& scene, bool begins) {
+    if (begins && paced != scene) pacer.begin();
+    paced = scene;
 }
 
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
@@ -205,10 +216,15 @@ void RenderLoop::run() {
         if (renders) {
             ++frames_;
             step->first = begins_;
+            memory_->pace(step->scene, begins_);
+            memory_->pacer.aim_at(1000 / std::max(step->order.hold_rate, 1e-3));
+            const bool limited = step->pass == Pass::Quick && real_time_ && step->order.adapt;
+            work_.limit = limited ? memory_->pacer.limit(step->order.playing) : kForEver;
+            work_.cut = false;
             in_work_ = *step;
-            work_began_.restart();
+            work_.began.restart();
+            if (limited) overtaken_.notify_one();
         }
-        if (renders && begins_) memory_->pacer.begin();
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {
@@ -238,10 +254,9 @@ void RenderLoop::run() {
     }
 }
 
-// With the lock. Does something wait for the end of the quick frame in work? Time that goes by
-// never ends a frame, and no move a scene's first one.
+// With the lock. Does something wait for the end of the quick frame in work? Time that goes by is
+// nothing to wait for, and no move ends a scene's first one.
 bool RenderLoop::is_overtaken() const {
-    if (!in_work_ || !real_time_ || stop_) return false;
     if (!questions_.empty() && !questions_.front().posed) return true;
     if (in_work_->first) return false;
     ViewOrder then = in_work_->order;
@@ -249,22 +264,31 @@ bool RenderLoop::is_overtaken() const {
     return !then.same_picture(order_);
 }
 
+// With the lock. Milliseconds until the frame in work is let go, if it is not ready by then.
+double RenderLoop::time_left() const {
+    if (!in_work_ || !real_time_ || stop_) return kForEver;
+    double most = work_.limit;
+    if (is_overtaken()) {
+        auto whole = std::find_if(times_.rbegin(), times_.rend(),
+                                  [](const StageTimes& times) { return !times.cancelled; });
+        most = std::min(most, patience_ms(order_.hold_rate, size_t(whole - times_.rbegin())));
+    }
+    return most - work_.began.ms();
+}
+
 // A thread of its own: a frame that takes long looks at `stop_` alone.
 void RenderLoop::end_late_frames() {
     std::unique_lock lock(mutex_);
     while (!quit_) {
-        if (!is_overtaken()) {
-            overtaken_.wait(lock);
-            continue;
-        }
-        auto whole = std::find_if(times_.rbegin(), times_.rend(),
-                                  [](const StageTimes& times) { return !times.cancelled; });
-        double left =
-            patience_ms(order_.hold_rate, size_t(whole - times_.rbegin())) - work_began_.ms();
-        if (left <= 0)
+        const double left = time_left();
+        if (left <= 0) {
+            work_.cut = work_.began.ms() >= work_.limit;
             stop_ = 1;
-        else
+        } else if (left < kForEver) {
             overtaken_.wait_for(lock, std::chrono::duration<double, std::milli>(left));
+        } else {
+            overtaken_.wait(lock);
+        }
     }
 }
 
@@ -363,6 +387,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     to->costs = {};
     if (shows_costs(step.display.aov)) measure_costs(settings, to->costs);
     memory_->follow(step);
+    memory_->guide_ms = 0;
     const bool filters = is_filtered(step);
     if (filters || step.scale < 1) {
         settings.insight.first = &memory_->first;
@@ -410,14 +435,25 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     }
     times.total = watch.ms();
     times.at = since_start_.ms();
-    double target = 1000 / std::max(step.order.hold_rate, 1e-3);
-    // A frame that was ended early says nothing, unless it was late already.
-    if (step.pass == Pass::Quick && real_time_ && (outcome.whole || times.total > target)) {
-        memory_->pacer.aim_at(target);
-        memory_->pacer.add(times.total,
-                           times.animate + times.skin + times.refit + times.present - filter);
-    }
+    if (step.pass == Pass::Quick && real_time_)
+        pace(times, outcome.whole,
+             times.animate + times.skin + times.refit + times.present - filter - memory_->guide_ms);
     return outcome;
+}
+
+// A frame that was ended early for something else says nothing, unless it was late already.
+void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
+    bool cut = false;
+    {
+        std::lock_guard lock(mutex_);
+        cut = work_.cut && !whole;
+    }
+    Pacer& pacer = memory_->pacer;
+    const double ms = times.total - memory_->guide_ms;
+    if (cut)
+        pacer.cut(ms, fixed);
+    else if (whole || pacer.is_late(ms))
+        pacer.add(ms, fixed);
 }
 
 bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
@@ -520,8 +556,8 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
         make_guide(scene, to.width, to.height, to.guide);
     else if (small && (2 * film->width >= to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
-    else if (small)  // a quarter of the rays says where the edges are
-        make_guide(scene, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
+    else if (small)
+        guide_small(scene, to);
     else
         to.guide = {};
     if (small) {
@@ -532,6 +568,14 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     if (small && !shows_guide(display.aov) && !shows_costs(display.aov))
         display.aov.clear();  // planes come with all pixels
     show_film(*film, display, to);
+}
+
+// Rays say where the edges are, beside those that the film's own hits show: a quarter as many as
+// pixels shown, at most.
+void RenderLoop::guide_small(const Scene& scene, Picture& to) {
+    StageTimer timer(memory_->guide_ms);
+    take_guide(memory_->first, to.view, memory_->hits);
+    refine_guide(scene, memory_->hits, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
 }
 
 void RenderLoop::answer(const Step& step) {

@@ -71,11 +71,13 @@ class RenderLoop {
     void run();
     void end_late_frames();
     bool is_overtaken() const;
+    double time_left() const;
     std::optional<Step> next_step();
     void plan(Step& step) const;
     Pass after(const Step& step) const;
     void finish(const Step& step, const Outcome& outcome);
     Outcome make(const Step& step);
+    void pace(const StageTimes& times, bool whole, double fixed);
     bool render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
                 FrameStats& stats);
     bool render_quick(const Step& step, const FrameSettings& settings, Picture& to,
@@ -86,6 +88,7 @@ class RenderLoop {
                         FrameStats& stats);
     bool is_filtered(const Step& step) const;
     void finish_picture(const Step& step, Picture& to);
+    void guide_small(const Scene& scene, Picture& to);
     void redisplay(const Step& step);
     void answer(const Step& step);
     std::shared_ptr<Picture> free_picture();
@@ -109,7 +112,11 @@ class RenderLoop {
     bool begins_ = false;  // another scene: its first picture is to come soon
     bool display_changed_ = false, working_ = false, quit_ = false;
     std::optional<Step> in_work_;
-    Stopwatch work_began_;
+    struct Work {
+        Stopwatch began;
+        double limit = 0;  // ms that it may take
+        bool cut = false;  // it took longer
+    } work_;
     const Stopwatch since_start_;
     uint64_t frames_ = 0;
     // Of the thread.

@@ -9,6 +9,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/description/findings.h"
+#include "runtime/images/texture.h"
 #include "runtime/images/texture_store.h"
 #include "runtime/programs/common/exit_codes.h"
 
@@ -276,6 +277,7 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
             return false;
     }
     shaders_ = std::move(shaders);
+    preload_textures(imported.description, *textures_);  // no frame waits for a file
     // Each text leaves its kernels in the cache.
     if (++swaps_ % kSwapsKept == 0) jit::clear_cache();
     shown.exit_code = kExitOk;
@@ -308,6 +310,7 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
         swapper_.emplace(*built.scene, std::move(edited), read_.scene->description.values.size());
     shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
+    textures_ = shown.scene->textures;
     shown.scene->textures->each_image(
         [&](const StoredImage& image) { shown.files.push_back(image.file); });
     shown.redicer = std::move(built.redicer);

@@ -96,6 +96,7 @@ class SceneMaker {
     std::optional<ShaderSwapper> swapper_;  // of the scene built last
     SceneEdits built_with_;                 // it, and what it was swapped to since
     EditedShaders shaders_;
+    std::shared_ptr<TextureStore> textures_;  // of the scene built last
     std::shared_ptr<const SceneInfo> info_;
     uint64_t serial_ = 0;
     int swaps_ = 0;  // so far

@@ -88,12 +88,14 @@ std::string attribute(std::string_view xml, size_t tag, std::string_view name) {
     return "";
 }
 
-bool is_same(const std::string& file, std::string_view bytes) {
+// What is read of a file; saving compares the text itself.
+bool may_hold(const std::string& file, std::string_view bytes) {
+    constexpr size_t kLooked = 4096;
     std::error_code error;
     if (std::filesystem::file_size(file, error) != bytes.size() || error) return false;
-    std::string now(bytes.size(), 0);
+    std::string begin(std::min(bytes.size(), kLooked), 0);
     std::ifstream in(file, std::ios::binary);
-    return in.read(now.data(), std::streamsize(now.size())) && now == bytes;
+    return in.read(begin.data(), std::streamsize(begin.size())) && bytes.starts_with(begin);
 }
 
 }  // namespace
@@ -154,7 +156,7 @@ ShaderSourceText source_of(const rsl::Shader& shader, const SourceFiles& files) 
     std::string_view ours = library_shader_text(shader.name);
     std::string file = where.file < files.count() ? files.name(where.file) : "";
     std::string_view text = where.file < files.count() ? files.text(where.file) : "";
-    bool readable = !file.empty() && is_same(file, text);
+    bool readable = !file.empty() && may_hold(file, text);
     if (!readable && !ours.empty()) {
         source.text = ours;
         source.why_fixed = "it is one of ours: save it with a file's name";
@@ -192,7 +194,7 @@ void add_broken_shaders(const SourceFiles& files, Location error, std::vector<Br
         broken.source.file = files.name(error.file);
         broken.source.name = broken.source.file + ":" + id + ".sl";
         take_embedded(xml, error.begin, broken.source);
-        if (!is_same(broken.source.file, xml))
+        if (!may_hold(broken.source.file, xml))
             broken.source.why_fixed = "its file is not there, or is packed in another";
     }
 }

@@ -5,6 +5,7 @@
 
 #include "runtime/play/player.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/large_pages.h"
 #include "runtime/programs/play/headless.h"
 #include "runtime/programs/play/options.h"
 #include "runtime/programs/play/ui/layout.h"
@@ -54,6 +55,7 @@ int play_scene(const PlayOptions& options) {
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::use_large_pages();
     kinora::PlayOptions options;
     if (std::optional<int> code = kinora::parse_play_options(argc, argv, options))
         return kinora::finish(*code, "kinora-play");

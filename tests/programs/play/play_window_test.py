@@ -100,6 +100,14 @@ class WindowTest(unittest.TestCase):
         window.recorded(self.record, "^play$")
         window.key("space")
         window.recorded(self.record, "^play$", 2)
+        self.display.xdotool("keydown", "shift")
+        window.drag(500, 300, 540, 320)
+        self.display.xdotool("keyup", "shift")
+        window.recorded(self.record, r"^pan -?0\.\d+ 0\.\d+$")  # the one before went right alone
+        self.display.xdotool("mousemove", 540, 340, "click", 2)
+        window.recorded(self.record, r"^pivot \d+ \d+$")
+        window.drag(500, 300, 500, 340, button=3)
+        window.recorded(self.record, "^dolly ", 2)  # one was the wheel's
         text = self.words(window)
         for pattern in (r"^orbit -?\d", r"^pan -?0?\.?\d", r"^click \d+ \d+$", r"^dolly 1\.12", r"^next$", r"^frame_all$",
                         r"^brighter$", r"^seek \d+$", r"^play$"):
@@ -372,7 +380,8 @@ class WindowTest(unittest.TestCase):
     def test_it_answers_while_a_frame_takes_long(self):
         """Every frame is endless, or one of many rays. Each press changes the screen though fewer frames end meanwhile: a loop
         that waited for the frame would answer once a frame. The times are printed and judge nothing: the processors may be busy."""
-        script = ("select_material bright", "edit", "play on",
+        # Without `adapt` no frame is dropped for a smaller one.
+        script = ("adapt", "select_material bright", "edit", "play on",
                   'set_text "surface s(float Ka = 1; float Kd = 1) { float k = 0, j; while (1) for (j = 0; j > -1; j += 1) k += u; Ci = k; Oi = 1; }"')
         for scene, words, lines in ((MATTE, (), script), (SCENES / "rays.dae", ("--quality", "final"), ())):
             with self.subTest(scene.name):

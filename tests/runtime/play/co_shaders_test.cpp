@@ -1,4 +1,6 @@
 // tests/runtime/play/co_shaders_test.cpp: shaders with co-shaders, edited while they are shown.
+#include <cmath>
+
 #include "runtime/play/scene_maker.h"
 #include "tests/runtime/play/played.h"
 
@@ -138,6 +140,60 @@ TEST(CoShaderEdits, OfTheSurfaceKeepTheLibrarysCoShaders) {
     std::vector<uint8_t> edited = shown(played.player);
     EXPECT_NE(edited, before);
     EXPECT_EQ(edited, shown_of(document(with(kSurface, "Ci = c;", "Ci = 0.5 * c;"))));
+}
+
+// A class that displaces: its picture shows how high the square lies, in units of the scene.
+constexpr const char* kLifts =
+    "class lift(float amount = 0.5;) {\n"
+    "    public void displacement(output point P; output normal N) {\n"
+    "        P += amount * normalize(N);\n        N = calculatenormal(P);\n    }\n}\n"
+    "class height() { public void surface(output color Ci, Oi) {\n"
+    "    extern point P;\n    Ci = zcomp(transform(\"world\", P));\n    Oi = 1;\n} }\n";
+constexpr const char* kLiftPass =
+    "<shader stage=\"DISPLACEMENT\"><name>lift</name></shader>"
+    "<shader stage=\"SURFACE\"><name>height</name></shader>";
+
+int middle(Player& player) {
+    const std::vector<uint8_t> rgba = shown(player);
+    return rgba.empty() ? -1 : rgba[4 * (64 * 18 + 32)];
+}
+
+// As sRGB has it, IEC 61966-2-1.
+int byte_of(double linear) {
+    return int(std::lround(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055)));
+}
+
+TEST(ClassEdits, OfADisplacementMoveTheMesh) {
+    auto document = [](const std::string& code) {
+        return square_of(effect_of("fx", code, kLiftPass));
+    };
+    std::string file = testing::TempDir() + "kinora_play_lift.dae";
+    write(file, document(kLifts));
+    Played played(small_request(file));
+    Player& player = played.player;
+    EXPECT_EQ(middle(player), byte_of(0.5));
+    EXPECT_EQ(played.script("select_material m:displacement; edit; find \"amount * n\"; "
+                            "type \"0.5 * \""),
+              "");
+    EXPECT_EQ(middle(player), byte_of(0.25));
+    EXPECT_EQ(player.shader().shown, player.shader().version);
+    EXPECT_EQ(shown(player), shown_of(document(with(kLifts, "amount * n", "0.5 * amount * n"))));
+    EXPECT_EQ(played.script("param amount 1.5"), "");
+    EXPECT_EQ(middle(player), byte_of(0.75));
+
+    // An error leaves the mesh where the last good text has it.
+    EXPECT_EQ(played.script("type \"x(\""), "");
+    EXPECT_EQ(middle(player), byte_of(0.75));
+    EXPECT_FALSE(player.shader().findings.empty());
+    EXPECT_EQ(played.script("undo; undo; undo"), "");
+    EXPECT_EQ(middle(player), byte_of(0.5));
+
+    // The surface beside it is edited in the same text.
+    EXPECT_EQ(played.script("select_material m; edit; find \"zcomp\"; type \"0.5 * \"; "
+                            "wait refined; save"),
+              "");
+    EXPECT_EQ(middle(player), byte_of(0.25));
+    EXPECT_EQ(text_of(file), document(with(kLifts, "zcomp", "0.5 * zcomp")));
 }
 
 }  // namespace

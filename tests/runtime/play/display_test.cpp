@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/frame/frame.h"
 #include "runtime/play/guide.h"
+#include "runtime/programs/open/open_scene.h"
+#include "tests/runtime/play/played.h"
 
 namespace kinora {
 namespace {
@@ -114,6 +117,51 @@ TEST(Enlarge, TakesAGuideOfHalfTheSize) {
     }
     enlarge(small, guide, 9, 2, large);
     for (int x = 0; x < 9; ++x) EXPECT_NEAR(large.at(x, 1).x, x < 4 ? 0.25f : 0.75f, 1e-2f) << x;
+}
+
+// A guide with rays beside edges alone enlarges a quarter of the width as one with rays everywhere.
+TEST(Guide, RaysBesideEdgesSuffice) {
+    SceneRequest request = small_request(scene_path("scenes/walker.dae"));
+    request.width = 160;
+    request.height = 90;
+    set_thread_count(2);
+    Diagnostics diagnostics;
+    auto imported = import_requested(request, diagnostics);
+    ASSERT_TRUE(imported);
+    BuiltScene built = build_imported(std::move(*imported), diagnostics);
+    ASSERT_TRUE(built.scene);
+    FrameSettings settings = frame_settings(request, *built.scene, diagnostics);
+    FirstHits hits;
+    hits.places = true;
+    settings.insight.first = &hits;
+    raytrace::Film film;
+    FrameStats stats;
+    ASSERT_TRUE(render_frame(*built.scene, 0, settings, film, stats, diagnostics));
+    PictureGuide small, whole, refined;
+    take_guide(hits, built.scene->view, small);
+    make_guide(*built.scene, 320, 180, whole);
+    refine_guide(*built.scene, small, 320, 180, refined);
+    size_t taken = 0, surfaces = 0;
+    for (size_t k = 0; k < whole.surface.size(); ++k) {
+        taken += refined.depth[k] != whole.depth[k];
+        surfaces += refined.surface[k] != whole.surface[k];
+    }
+    EXPECT_GT(double(taken), 0.5 * double(whole.surface.size()));  // so many rays less
+    EXPECT_LT(double(surfaces), 0.005 * double(whole.surface.size()));
+    raytrace::Film by_whole, by_refined;
+    enlarge(film, whole, 640, 360, by_whole);
+    enlarge(film, refined, 640, 360, by_refined);
+    double apart = 0;
+    size_t far = 0;
+    for (size_t k = 0; k < by_whole.rgba.size(); ++k) {
+        const double one = std::abs(double(by_whole.rgba[k].y) - double(by_refined.rgba[k].y));
+        apart += one / double(by_whole.rgba.size());
+        far += one > 0.02;
+    }
+    EXPECT_LT(apart, 1e-3);
+    EXPECT_LT(double(far), 0.005 * double(by_whole.rgba.size()));
+    std::printf("rays %zu of %zu, %zu other surfaces, %.6f apart, %zu far\n",
+                whole.surface.size() - taken, whole.surface.size(), surfaces, apart, far);
 }
 
 }  // namespace

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
+#include <thread>
 
 #include "jit/compiler.h"
+#include "runtime/images/texture_store.h"
 #include "runtime/play/scene_maker.h"
 #include "tests/rsl/random_shader.h"
 #include "tests/runtime/play/played.h"
@@ -88,6 +91,32 @@ TEST(Swap, WhatChangesMoreThanAKernelIsBuilt) {
     refined(player);
     EXPECT_EQ(player.made().scenes, 3u);  // its parameters are others, and it is seen through
     EXPECT_EQ(player.shader().shown, player.shader().version);
+}
+
+// The file that a text names is read before its kernels are shown: no frame waits for it.
+TEST(Swap, ReadsThePictureThatATextNames) {
+    SceneMaker maker([] {}, false);
+    const auto taken = [&] {
+        std::unique_ptr<ShownScene> made;
+        while (!(made = maker.take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return made;
+    };
+    const std::string file = scene_path("scenes/walker.dae");
+    maker.open(small_request(file), {}, true);
+    const auto shown = taken();
+    ASSERT_TRUE(shown->scene);
+    const int before = shown->scene->textures->images();
+    SceneEdits edits;
+    edits.texts.push_back({"wall-material", file,
+                           "surface plaster(float Ka = 1; float Kd = 0.9; float unevenness = 0.12;"
+                           " color surface_color = color(0.05, 0.16, 0.17);) {"
+                           " Oi = Os; Ci = Os * Cs * color texture(\"" +
+                               scene_path("scenes/studio_tiles.png") + "\", s, t); }",
+                           1});
+    maker.edit(edits);
+    const auto edited = taken();
+    ASSERT_TRUE(edited->swapped) << (edited->findings.empty() ? "" : edited->findings[0].printed);
+    EXPECT_EQ(shown->scene->textures->images(), before + 1);
 }
 
 // Bytes that the allocator has given out, and of them what is mapped by itself.

@@ -115,6 +115,77 @@ TEST(Pacer, BeginsWithTheFewestPixels) {
     EXPECT_EQ(slow, (std::vector<double>{0.25, 0.25, 0.25}));
 }
 
+// Load from outside that makes everything eight times as slow for a while. That each frame takes
+// 2 ms whatever its size is not told: the size is found in two steps.
+TEST(Pacer, IsBackWithinFiveFramesAfterALoad) {
+    Pacer pacer = pacer_at_target();
+    std::vector<double> ms(60, 40);
+    ms.resize(90, 320);
+    ms.resize(200, 40);
+    const std::vector<double> scale = scales(pacer, ms, 2);
+    EXPECT_LE(scale[89], 0.36);
+    for (size_t k = 95; k < 200; ++k) EXPECT_GE(scale[k], 0.8 * scale[59]) << k;
+    for (size_t k = 115; k < 200; ++k) EXPECT_EQ(scale[k], scale[59]) << k;
+    EXPECT_GT(scale[59], 0.8);
+}
+
+// A frame that nobody has waited for: the next one has a sixteenth of its pixels, and the size that
+// holds the rate follows from its time.
+TEST(Pacer, ACutFrameIsFollowedByASmallOne) {
+    Pacer pacer = pacer_at_target();
+    scales(pacer, std::vector<double>(20, 30));
+    EXPECT_LT(pacer.limit(true), 250);
+    EXPECT_GT(pacer.limit(true), 4 * kTarget);
+    pacer.cut(pacer.limit(true));
+    EXPECT_EQ(pacer.scale(), 0.25);
+    const std::vector<double> slow = scales(pacer, std::vector<double>(20, 500));
+    EXPECT_EQ(slow.back(), 0.25);  // 31 ms
+    pacer.cut(pacer.limit(true));
+    EXPECT_EQ(pacer.scale(), 1 / 16.0);
+    EXPECT_TRUE(std::isinf(pacer.limit(false)));  // there is none that would be done sooner
+    EXPECT_EQ(scales(pacer, std::vector<double>(20, 20)).back(), 1);
+}
+
+// A shader of which not even one pixel is ready: while the scene plays, each frame is let go in
+// time, and after two seconds one may take as long as it needs.
+TEST(Pacer, SomePictureComesEvenIfNoneIsInTime) {
+    Pacer pacer = pacer_at_target();
+    double waited = 0;
+    int frames = 0;
+    for (; std::isfinite(pacer.limit(true)); ++frames) {
+        const double ms = pacer.limit(true);
+        EXPECT_LT(ms, 250);
+        pacer.cut(ms);
+        waited += ms;
+    }
+    EXPECT_GE(waited, 2000);
+    EXPECT_LT(waited, 2500);
+    pacer.add(3000);
+    EXPECT_TRUE(std::isfinite(pacer.limit(true)));
+}
+
+// Where the usual sizes take several times what they may, still smaller ones do not.
+TEST(Pacer, IsStillSmallerWhereFewPixelsTakeLong) {
+    for (double whole : {2000.0, 2600.0}) {
+        Pacer pacer = pacer_at_target();
+        EXPECT_EQ(scales(pacer, std::vector<double>(20, whole)).back(), 0.25) << whole;
+    }
+    for (double whole : {3000.0, 8000.0, 30000.0}) {
+        Pacer pacer = pacer_at_target();
+        const double scale = scales(pacer, std::vector<double>(20, whole)).back();
+        EXPECT_LE(whole * scale * scale, 5 * kTarget) << whole;
+        EXPECT_GT(whole * scale * scale, 3 * kTarget) << whole;
+    }
+    // What takes the time whatever the size is no reason to be smaller.
+    Pacer pacer = pacer_at_target();
+    double ms = 0;
+    for (int k = 0; k < 100; ++k) {
+        ms = 400 + 300 * pacer.scale() * pacer.scale();
+        pacer.add(ms, 400);
+    }
+    EXPECT_EQ(pacer.scale(), 0.25);
+}
+
 TEST(Pacer, StopsAtItsSmallestSize) {
     Pacer pacer = pacer_at_target();
     EXPECT_EQ(scales(pacer, std::vector<double>(50, 1e5)).back(),

@@ -54,6 +54,7 @@ class WindowLoop {
         scale_ = layout_.scale > 0 ? layout_.scale : surface_.display_scale();
         surface_.set_full_screen(options.full_screen);
         show_first();
+        player.advance(0);  // a scene that is there by now is rendered while fonts are loaded
         ui_.emplace(player, layout_, scale_ * surface_.pixels_per_unit(), !options.fixed_size);
         connect_input();
         begin_script();
