@@ -101,15 +101,21 @@ void StatementChecker::check(ExpressionStmt& s) {
         reporter_.report(Code::RSL_NO_EFFECT, s.span);
 }
 
-void StatementChecker::check(IfStmt& s) {
-    expressions_.condition(s.condition);
-    statement(*s.yes);
-    if (s.no) statement(*s.no);
+// What a single declaration declares is seen no further than in braces.
+void StatementChecker::body(Stmt& s) {
+    Scopes::Guard scope(scopes_);
+    statement(s);
 }
 
-void StatementChecker::loop_body(Stmt& loop, Stmt& body) {
+void StatementChecker::check(IfStmt& s) {
+    expressions_.condition(s.condition);
+    body(*s.yes);
+    if (s.no) body(*s.no);
+}
+
+void StatementChecker::loop_body(Stmt& loop, Stmt& turn) {
     around_.loops.push_back(&loop);
-    statement(body);
+    body(turn);
     around_.loops.pop_back();
 }
 

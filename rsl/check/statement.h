@@ -66,7 +66,8 @@ class StatementChecker {
     void check(BreakStmt& s);
     void check(ContinueStmt& s);
     void check(ReturnStmt& s);
-    void loop_body(Stmt& loop, Stmt& body);
+    void body(Stmt& s);
+    void loop_body(Stmt& loop, Stmt& turn);
     Stmt* jump_target(const Stmt& jump, const char* word, int levels);
 
     // light_statement.cpp

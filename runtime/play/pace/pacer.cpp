@@ -16,8 +16,8 @@ namespace kinora {
 
 namespace {
 
-constexpr double kSmallMay = 5;       // times the target: what the smallest pictures may take
-constexpr double kIsCut = 6;          // no frame is waited for any longer
+constexpr double kSmallMay = 3;       // times the target: what the smallest pictures may take
+constexpr double kIsCut = 4.5;        // no frame is waited for any longer
 constexpr double kFirstMay = 4;       // times that: a scene's first frame fills buffers and caches
 constexpr size_t kCutSteps = 16;      // a sixteenth of the pixels
 constexpr double kMostInVain = 2000;  // ms

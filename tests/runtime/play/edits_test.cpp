@@ -231,7 +231,7 @@ TEST(Edits, AtRandomLeaveNothingBehind) {
     EXPECT_LE(double(used[1]), 1.01 * double(used[0]));
     // Other work on the machine may hold a frame: judged where it is known to be idle.
     if (std::getenv("KINORA_FRAME_MS")) {
-        EXPECT_LE(longest.ms, std::atof(std::getenv("KINORA_FRAME_MS")));
+        EXPECT_LE(std::max(longest.ms, longest.endless), std::atof(std::getenv("KINORA_FRAME_MS")));
     }
 }
 
