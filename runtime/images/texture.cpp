@@ -173,15 +173,22 @@ void preload_textures(const SceneDescription& description, TextureStore& store) 
         for (const ParamSource& source : use.params)
             names.insert(names.end(), source.strings.begin(), source.strings.end());
         if (!use.shader) return;
-        if (use.shader->ast)
-            names.insert(names.end(), use.shader->ast->pictures.begin(),
-                         use.shader->ast->pictures.end());
         for (const rsl::ShaderParameter& parameter : use.shader->parameters)
             if (parameter.constant)
                 names.insert(names.end(), parameter.constant->strings.begin(),
                              parameter.constant->strings.end());
     };
     for_each_shader_use(description, add_strings);
+    store.preload(names);
+}
+
+void preload_named_pictures(const SceneDescription& description, TextureStore& store) {
+    std::vector<std::string> names;
+    for_each_shader_use(description, [&](const ShaderUse& use) {
+        if (use.shader && use.shader->ast)
+            names.insert(names.end(), use.shader->ast->pictures.begin(),
+                         use.shader->ast->pictures.end());
+    });
     store.preload(names);
 }
 

@@ -37,7 +37,11 @@ void lookup_shadow(const jit::ServiceCall& call, const dmat4& world_from_current
 void lookup_texture_info(const jit::ServiceCall& call, TextureStore& store);
 
 // Reads, in parallel, the images named by the string parameters of a scene's materials and lights,
-// and by the texts of their shaders, so that no frame has to. Strings that name no file are no error: they may not be images at all.
+// so that no frame has to. Strings that name no file are no error: they may not be images at all.
 void preload_textures(const SceneDescription& description, TextureStore& store);
+
+// The same of the images that calls in the shaders' texts name. Where no point comes to a call its
+// image is read for nothing.
+void preload_named_pictures(const SceneDescription& description, TextureStore& store);
 
 }  // namespace kinora

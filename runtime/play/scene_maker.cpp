@@ -278,6 +278,7 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
     }
     shaders_ = std::move(shaders);
     preload_textures(imported.description, *textures_);  // no frame waits for a file
+    preload_named_pictures(imported.description, *textures_);
     // Each text leaves its kernels in the cache.
     if (++swaps_ % kSwapsKept == 0) jit::clear_cache();
     shown.exit_code = kExitOk;
@@ -311,6 +312,7 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
     textures_ = shown.scene->textures;
+    preload_named_pictures(*shown.scene->description, *textures_);
     shown.scene->textures->each_image(
         [&](const StoredImage& image) { shown.files.push_back(image.file); });
     shown.redicer = std::move(built.redicer);
