@@ -198,6 +198,11 @@ LightBindings::LightBindings(const Scene& scene) {
     }
 }
 
+bool LightBindings::asked(size_t light) const {
+    return std::ranges::any_of(bindings_,
+                               [&](const auto& row) { return !row.empty() && row[light].seen; });
+}
+
 bool LightBindings::directed(size_t light) const {
     return std::any_of(statements_[light].begin(), statements_[light].end(),
                        [](const auto& s) { return s.kind != rsl::kLightAmbient; });

@@ -45,6 +45,8 @@ class LightBindings {
     // Where light `light` can send light at the scene's present time, in current space; of other
     // shaders than the library's that is everywhere.
     LightReach reach(const Scene& scene, size_t light) const;
+    // Whether some loop of some look asks for it.
+    bool asked(size_t light) const;
     // Whether some statement sends light from somewhere.
     bool directed(size_t light) const;
 

@@ -21,6 +21,8 @@ class LightRecords {
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
     // `all`: records of lights that reach no surface are made too, as light_of_records has them.
     void begin_frame(bool all);
+    // Whether some loop of the scene's shaders asks for that one of Scene::lights.
+    bool asked(size_t light) const { return bindings_.asked(light); }
     // Names the lights that shine only against where they look.
     void report_aims(Diagnostics& diagnostics) const;
 

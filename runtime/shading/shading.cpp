@@ -53,6 +53,7 @@ struct Shading::Objects {
     Bakes bakes{frame.scene};
     GridServices services{lights, rays, gathers, prints, bakes};
     bool aims_reported = false;
+    std::vector<bool> run;  // by look
 
     ShadingCounters counted() const {  // by all threads, in this frame
         ShadingCounters total;
@@ -61,19 +62,35 @@ struct Shading::Objects {
     }
 };
 
+namespace {
+
+// Looks that run in a frame: all but those of lights that no shader asks for.
+std::vector<bool> looks_that_run(const Scene& scene, const LightRecords& lights) {
+    std::vector<bool> run(scene.shader_instances.size(), true);
+    for (const LightSource& light : scene.lights) run[light.look] = false;
+    for (size_t l = 0; l < scene.lights.size(); ++l)
+        if (lights.asked(l)) run[scene.lights[l].look] = true;
+    return run;
+}
+
+}  // namespace
+
 Shading::Shading(const Scene& scene) {
     for (size_t l = 0; l < scene.shader_instances.size(); ++l)
         scene.shader_instances[l]->index = uint32_t(l);
     objects_ = std::make_unique<Objects>(scene);
+    objects_->run = looks_that_run(scene, objects_->lights);
 }
 Shading::~Shading() = default;
 
 namespace {
 
-// Brings all looks to the scene's time.
-void update_looks(const Scene& scene, const std::atomic<int>* stop) {
+// Brings the looks that run, or all, to the scene's time.
+void update_looks(const Scene& scene, const std::vector<bool>& run, bool all,
+                  const std::atomic<int>* stop) {
     FrameContext context{.scene = scene, .stop = stop};
-    for (const auto& look : scene.shader_instances) look->update(context);
+    for (size_t l = 0; l < run.size(); ++l)
+        if (all || run[l]) scene.shader_instances[l]->update(context);
 }
 
 void set_view(ShadingFrame& frame) {
@@ -140,7 +157,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     frame.lights_shoot = std::ranges::any_of(frame.scene.lights, [&](const LightSource& light) {
         return shoots_rays(*frame.scene.shader_instances[light.look]);
     });
-    update_looks(frame.scene, frame.stop);
+    update_looks(frame.scene, objects_->run, all_inputs, frame.stop);
     set_view(frame);
     objects_->lights.begin_frame(all_inputs);
     set_media(frame);
