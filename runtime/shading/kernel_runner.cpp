@@ -35,6 +35,8 @@ void for_each_kernel(const Scene& scene, F&& f) {
 void KernelRunner::begin_frame(size_t threads) {
     faults_.resize(std::max(faults_.size(), threads));
     for (auto& faults : faults_) {
+        for (auto& row : faults) std::ranges::fill(row, uint8_t(0));
+        if (faults.size() == 2 * scene_.shader_instances.size()) continue;
         faults.resize(2 * scene_.shader_instances.size());
         for_each_kernel(scene_, [&](const BoundKernel& bound, size_t row) {
             faults[row].assign(bound.kernel().fault_sites.size(), 0);

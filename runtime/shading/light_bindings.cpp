@@ -196,11 +196,10 @@ LightBindings::LightBindings(const Scene& scene) {
         for (const LightSource& light : scene.lights)
             row.push_back(binding_of(*look, *scene.shader_instances[light.look]));
     }
-}
-
-bool LightBindings::asked(size_t light) const {
-    return std::ranges::any_of(bindings_,
-                               [&](const auto& row) { return !row.empty() && row[light].seen; });
+    asked_.resize(scene.lights.size());
+    for (const auto& row : bindings_)
+        for (size_t l = 0; l < row.size(); ++l)
+            if (row[l].seen) asked_[l] = true;
 }
 
 bool LightBindings::directed(size_t light) const {

@@ -46,13 +46,14 @@ class LightBindings {
     // shaders than the library's that is everywhere.
     LightReach reach(const Scene& scene, size_t light) const;
     // Whether some loop of some look asks for it.
-    bool asked(size_t light) const;
+    bool asked(size_t light) const { return asked_[light]; }
     // Whether some statement sends light from somewhere.
     bool directed(size_t light) const;
 
   private:
     std::vector<std::vector<LightOutputs>> statements_;  // [light]
     std::vector<std::vector<LightBinding>> bindings_;    // [look][light]
+    std::vector<bool> asked_;                            // [light]
 };
 
 }  // namespace kinora

@@ -111,7 +111,8 @@ void LightRecords::begin_frame(bool all) {
     all_ = all;
     area_lights_.begin_frame();
     reaches_.resize(frame_.scene.lights.size());
-    for (size_t l = 0; l < reaches_.size(); ++l) reaches_[l] = bindings_.reach(frame_.scene, l);
+    for (size_t l = 0; l < reaches_.size(); ++l)
+        if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, l);
     find_absent();
 }
 

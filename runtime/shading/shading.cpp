@@ -34,6 +34,14 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     dark += o.dark;
 }
 
+// What a scene's shaders need of all frames. Frames do not look at each of them for it.
+struct SceneTraits {
+    std::vector<bool> run;  // by look: see looks_that_run()
+    bool footprints = false, lights_shoot = false;
+    bool transparent = false;  // some surface is not opaque
+    bool endless = false;      // something fills the space around the scene
+};
+
 // Each object is made of those before it. Kernels alone lead back up: they call services.
 struct Shading::Objects {
     explicit Objects(const Scene& scene) : frame{scene} {}
@@ -53,7 +61,7 @@ struct Shading::Objects {
     Bakes bakes{frame.scene};
     GridServices services{lights, rays, gathers, prints, bakes};
     bool aims_reported = false;
-    std::vector<bool> run;  // by look
+    SceneTraits traits;
 
     ShadingCounters counted() const {  // by all threads, in this frame
         ShadingCounters total;
@@ -73,13 +81,30 @@ std::vector<bool> looks_that_run(const Scene& scene, const LightRecords& lights)
     return run;
 }
 
+SceneTraits traits_of(const Scene& scene, const LightRecords& lights) {
+    const auto& looks = scene.shader_instances;
+    SceneTraits traits;
+    traits.run = looks_that_run(scene, lights);
+    traits.footprints = reads_footprints(scene);
+    traits.lights_shoot = std::ranges::any_of(
+        scene.lights, [&](const LightSource& light) { return shoots_rays(*looks[light.look]); });
+    traits.transparent = std::ranges::any_of(looks, [](const auto& look) {
+        return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
+    });
+    traits.endless = scene.atmosphere != kNone ||
+                     std::ranges::any_of(looks, [](const auto& look) { return look->exterior; });
+    return traits;
+}
+
 }  // namespace
 
 Shading::Shading(const Scene& scene) {
     for (size_t l = 0; l < scene.shader_instances.size(); ++l)
         scene.shader_instances[l]->index = uint32_t(l);
     objects_ = std::make_unique<Objects>(scene);
-    objects_->run = looks_that_run(scene, objects_->lights);
+    objects_->traits = traits_of(scene, objects_->lights);
+    objects_->frame.any_transparent = objects_->traits.transparent;
+    objects_->frame.lights_shoot = objects_->traits.lights_shoot;
 }
 Shading::~Shading() = default;
 
@@ -101,19 +126,6 @@ void set_view(ShadingFrame& frame) {
     const CameraSource& camera = scene.cameras[scene.camera];
     bool has_end = scene.description->cameras[camera.definition].zfar.present();
     frame.far_distance = has_end ? float(view.zfar) : float(glm::length(view.eye) + scene.size);
-}
-
-// What there is on the way of rays.
-void set_media(ShadingFrame& frame) {
-    const auto& looks = frame.scene.shader_instances;
-    auto transparent = [](const auto& look) {
-        return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
-    };
-    frame.any_transparent = std::any_of(looks.begin(), looks.end(), transparent);
-    bool endless =
-        frame.scene.atmosphere != kNone ||
-        std::any_of(looks.begin(), looks.end(), [](const auto& l) { return l->exterior; });
-    frame.miss_distance = endless ? frame.far_distance : 0.0f;
 }
 
 // du and dv are the footprint's size; bake3d takes it for points without a radius.
@@ -145,7 +157,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     frame.split = uint32_t(frame.scene.options.split);
     while (threads.size() < size_t(thread_count()))
         threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
-    frame.footprints = all_inputs || kinora::reads_footprints(frame.scene);
+    frame.footprints = all_inputs || objects_->traits.footprints;
     for (auto& thread : threads) {
         thread->counters = {};
         thread->footprints = frame.footprints;
@@ -154,13 +166,10 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     objects_->gathers.begin_frame(threads.size());
     objects_->prints.begin_frame(threads.size());
     objects_->bakes.begin_frame(threads.size());
-    frame.lights_shoot = std::ranges::any_of(frame.scene.lights, [&](const LightSource& light) {
-        return shoots_rays(*frame.scene.shader_instances[light.look]);
-    });
-    update_looks(frame.scene, objects_->run, all_inputs, frame.stop);
+    update_looks(frame.scene, objects_->traits.run, all_inputs, frame.stop);
     set_view(frame);
     objects_->lights.begin_frame(all_inputs);
-    set_media(frame);
+    frame.miss_distance = objects_->traits.endless ? frame.far_distance : 0.0f;
 }
 
 void Shading::stop_by(const std::atomic<int>* flag) {
