@@ -34,14 +34,6 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     dark += o.dark;
 }
 
-// What a scene's shaders need of all frames. Frames do not look at each of them for it.
-struct SceneTraits {
-    std::vector<bool> run;  // by look: see looks_that_run()
-    bool footprints = false, lights_shoot = false;
-    bool transparent = false;  // some surface is not opaque
-    bool endless = false;      // something fills the space around the scene
-};
-
 // Each object is made of those before it. Kernels alone lead back up: they call services.
 struct Shading::Objects {
     explicit Objects(const Scene& scene) : frame{scene} {}
@@ -61,7 +53,12 @@ struct Shading::Objects {
     Bakes bakes{frame.scene};
     GridServices services{lights, rays, gathers, prints, bakes};
     bool aims_reported = false;
-    SceneTraits traits;
+    // What the scene's shaders need of all frames: these do not look at each of them for it.
+    std::vector<bool> looks_run;  // by look: see looks_that_run()
+    // The others run once: volumes ask all lights, and see what those held then.
+    bool all_ran = false;
+    bool reads_footprints = false;
+    bool fills_space = false;  // an atmosphere or an exterior
 
     ShadingCounters counted() const {  // by all threads, in this frame
         ShadingCounters total;
@@ -81,30 +78,24 @@ std::vector<bool> looks_that_run(const Scene& scene, const LightRecords& lights)
     return run;
 }
 
-SceneTraits traits_of(const Scene& scene, const LightRecords& lights) {
-    const auto& looks = scene.shader_instances;
-    SceneTraits traits;
-    traits.run = looks_that_run(scene, lights);
-    traits.footprints = reads_footprints(scene);
-    traits.lights_shoot = std::ranges::any_of(
-        scene.lights, [&](const LightSource& light) { return shoots_rays(*looks[light.look]); });
-    traits.transparent = std::ranges::any_of(looks, [](const auto& look) {
-        return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
-    });
-    traits.endless = scene.atmosphere != kNone ||
-                     std::ranges::any_of(looks, [](const auto& look) { return look->exterior; });
-    return traits;
-}
-
 }  // namespace
 
 Shading::Shading(const Scene& scene) {
     for (size_t l = 0; l < scene.shader_instances.size(); ++l)
         scene.shader_instances[l]->index = uint32_t(l);
     objects_ = std::make_unique<Objects>(scene);
-    objects_->traits = traits_of(scene, objects_->lights);
-    objects_->frame.any_transparent = objects_->traits.transparent;
-    objects_->frame.lights_shoot = objects_->traits.lights_shoot;
+    const auto& looks = scene.shader_instances;
+    ShadingFrame& frame = objects_->frame;
+    frame.any_transparent = std::ranges::any_of(looks, [](const auto& look) {
+        return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
+    });
+    frame.lights_shoot = std::ranges::any_of(
+        scene.lights, [&](const LightSource& light) { return shoots_rays(*looks[light.look]); });
+    objects_->looks_run = looks_that_run(scene, objects_->lights);
+    objects_->reads_footprints = kinora::reads_footprints(scene);
+    objects_->fills_space =
+        scene.atmosphere != kNone ||
+        std::ranges::any_of(looks, [](const auto& look) { return look->exterior; });
 }
 Shading::~Shading() = default;
 
@@ -157,7 +148,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     frame.split = uint32_t(frame.scene.options.split);
     while (threads.size() < size_t(thread_count()))
         threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
-    frame.footprints = all_inputs || objects_->traits.footprints;
+    frame.footprints = all_inputs || objects_->reads_footprints;
     for (auto& thread : threads) {
         thread->counters = {};
         thread->footprints = frame.footprints;
@@ -166,10 +157,11 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     objects_->gathers.begin_frame(threads.size());
     objects_->prints.begin_frame(threads.size());
     objects_->bakes.begin_frame(threads.size());
-    update_looks(frame.scene, objects_->traits.run, all_inputs, frame.stop);
+    const bool all = !std::exchange(objects_->all_ran, true) || all_inputs;
+    update_looks(frame.scene, objects_->looks_run, all, frame.stop);
     set_view(frame);
     objects_->lights.begin_frame(all_inputs);
-    frame.miss_distance = objects_->traits.endless ? frame.far_distance : 0.0f;
+    frame.miss_distance = objects_->fills_space ? frame.far_distance : 0.0f;
 }
 
 void Shading::stop_by(const std::atomic<int>* flag) {
