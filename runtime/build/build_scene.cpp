@@ -87,7 +87,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
 
     if (stopped() || !add_instances(scene, uses, diagnostics)) return nullptr;
     if (!again) preload_textures(*scene.description, *scene.textures);
-    displace(scene, uses, again ? &again->view : nullptr, stop, diagnostics);
+    displace(scene, uses, again && again->view ? &*again->view : nullptr, stop, diagnostics);
     if (stopped()) return nullptr;
 
     if (const std::string& why = raytrace::ray_tracer_error(); !why.empty()) {

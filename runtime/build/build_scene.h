@@ -3,16 +3,17 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
 #include "runtime/build/displacement/closer_view.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
 
-// A scene built again, from the same description (as import gave it) and options, for one view
-// more. Its accel space is that of the first.
+// A scene built again, from the same description (as import gave it). Its accel space is that of
+// the first.
 struct BuildAgain {
-    CloserView view;
+    std::optional<CloserView> view;           // one more that meshes are diced for
     std::shared_ptr<TextureStore> textures;   // of the first
     const std::atomic<bool>* stop = nullptr;  // once it is true build_scene gives up
 };

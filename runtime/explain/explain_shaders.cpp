@@ -59,7 +59,10 @@ void explain_kernel(const ShaderInstance& look, ExplainedRows& rows) {
     const std::string subject =
         fmt::format("{} ({} {})", look.name, kKindNames[size_t(look.kind)], look.shader().name);
     PointInputs inputs(kernel);
-    rows.add(subject, fmt::format("computed at each point: {}", fmt::join(inputs.values, " ")),
+    rows.add(subject,
+             inputs.values.empty()
+                 ? std::string("reads no global")
+                 : fmt::format("computed at each point: {}", fmt::join(inputs.values, " ")),
              fmt::format("{} inputs, {} bytes of {} code", kernel.inputs.size(), kernel.code_bytes,
                          kernel.target));
     if (inputs.partials.empty())

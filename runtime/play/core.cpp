@@ -54,7 +54,7 @@ PlayerCore::PlayerCore(PlayerSetup player_setup)
           wake();
       }),
       loop(setup.real_time, [this] { wake(); }),
-      maker([this] { wake(); }, setup.shows_broken),
+      maker([this] { wake(); }, setup.real_time, setup.shows_broken),
       thumbnails([this] { wake(); }),
       board([this] { wake(); }) {}
 
@@ -152,9 +152,13 @@ void PlayerCore::forget_stops() {
 }
 
 void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
-    scene_findings = shown->findings;
-    take_text(*shown);
-    exit_code = shown->exit_code;
+    if (shown->finer) {  // what a later text is told stays
+        add_new(scene_findings, shown->findings);
+    } else {
+        scene_findings = shown->findings;
+        take_text(*shown);
+        exit_code = shown->exit_code;
+    }
     if (!shown->files.empty()) watch.watch(files = shown->files);
     if (shown->swapped) return take_swap(*shown);
     if (!shown->scene) {

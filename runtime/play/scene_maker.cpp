@@ -9,19 +9,31 @@
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/description/findings.h"
+#include "runtime/frame/frame.h"
 #include "runtime/images/texture.h"
 #include "runtime/images/texture_store.h"
 #include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 
-SceneMaker::SceneMaker(std::function<void()> done, bool shows_broken)
-    : done_(std::move(done)), shows_broken_(shows_broken), thread_([this] { run(); }) {}
+namespace {
+
+// Pixels that an edge of a coarse scene has, and how long nobody minds to wait for a finer one.
+constexpr double kCoarseDice = 4;
+constexpr double kFastDiceMs = 250;
+
+}  // namespace
+
+SceneMaker::SceneMaker(std::function<void()> done, bool hurries, bool shows_broken)
+    : done_(std::move(done)),
+      hurries_(hurries),
+      shows_broken_(shows_broken),
+      thread_([this] { run(); }) {}
 
 SceneMaker::~SceneMaker() {
     {
         std::lock_guard lock(mutex_);
-        quit_ = true;
+        quit_ = overtaken_ = true;
         order_.reset();
     }
     wanted_.notify_one();
@@ -31,7 +43,7 @@ SceneMaker::~SceneMaker() {
 void SceneMaker::open(const SceneRequest& request, SceneEdits edits, bool replaces_camera) {
     {
         std::lock_guard lock(mutex_);
-        order_ = Order{request, std::move(edits), replaces_camera};
+        order({.open = request, .edits = std::move(edits), .replaces_camera = replaces_camera});
     }
     wanted_.notify_one();
 }
@@ -40,12 +52,18 @@ void SceneMaker::edit(SceneEdits edits) {
     {
         std::lock_guard lock(mutex_);
         // A file that is still to be read is read.
-        if (order_)
+        if (order_ && !order_->finer)
             order_->edits = std::move(edits);
         else
-            order_ = Order{std::nullopt, std::move(edits), false};
+            order({.edits = std::move(edits)});
     }
     wanted_.notify_one();
+}
+
+// With the lock.
+void SceneMaker::order(Order order) {
+    overtaken_ = true;
+    order_ = std::move(order);
 }
 
 std::unique_ptr<ShownScene> SceneMaker::take() {
@@ -84,13 +102,14 @@ bool SceneMaker::cancel() {
 
 Opening SceneMaker::under_way() const {
     std::lock_guard lock(mutex_);
-    if (!working_ || !replaces_camera_ || cancelled_) return {};
+    const bool seen = replaces_camera_ || step_ == Opening::Step::Dices;
+    if (!working_ || !seen || cancelled_) return {};
     return {step_, began_.ms() / 1000};
 }
 
 bool SceneMaker::goes_on(Opening::Step step) {
     std::lock_guard lock(mutex_);
-    if (step == Opening::Step::Reads) began_.restart();
+    if (step == Opening::Step::Reads || step == Opening::Step::Dices) began_.restart();
     step_ = step;
     return !cancelled_;
 }
@@ -104,11 +123,14 @@ void SceneMaker::run() {
         order_.reset();
         working_ = true;
         replaces_camera_ = order.replaces_camera;
-        cancelled_ = false;
+        cancelled_ = overtaken_ = false;
         lock.unlock();
         std::unique_ptr<ShownScene> made = make(order);
         lock.lock();
+        // Not again where it could not be made.
+        if (made && (made->scene || order.finer)) coarse_shown_ = made->scene && coarse_;
         if (made) put(std::move(made));
+        if (coarse_shown_ && !order_) order_ = Order{.edits = built_with_, .finer = true};
         working_ = false;
         step_ = Opening::Step::None;
         lock.unlock();
@@ -122,10 +144,16 @@ void SceneMaker::put(std::unique_ptr<ShownScene> made) {
     if (made->swapped) counts_.kernels += made->swapped->swap.instances.size();
     if (made->scene) {
         ++counts_.scenes;
+        const auto has_scene = [](const auto& before) { return bool(before->scene); };
+        auto before = std::ranges::find_if(made_, has_scene);
         // A scene opened and not taken yet must not lose its place to the same one edited.
-        for (const auto& before : made_)
-            if (before->scene && before->replaces_camera) made->replaces_camera = true;
-        made_.clear();
+        if (before != made_.end()) made->replaces_camera |= (*before)->replaces_camera;
+        if (made->finer && before != made_.end()) {
+            made->finer = (*before)->finer;
+            *before = std::move(made);
+            return;
+        }
+        if (!made->finer) made_.clear();
     }
     made_.push_back(std::move(made));
 }
@@ -136,10 +164,11 @@ std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
     shown->diagnostics = std::make_unique<Diagnostics>();
     shown->edits = order.edits;
     shown->replaces_camera = order.replaces_camera;
+    shown->finer = order.finer;
     std::optional<AsRead> before;
     if (order.open && order.replaces_camera && read_.scene) before = std::exchange(read_, AsRead{});
     make(order, *shown);
-    if (!goes_on(Opening::Step::None)) shown.reset();
+    if (!goes_on(Opening::Step::None) || (order.finer && overtaken_)) shown.reset();
     const bool good = shown && (shown->scene || shown->swapped);
     if (before && !good) {
         read_ = std::move(*before);
@@ -158,8 +187,10 @@ void SceneMaker::make(const Order& order, ShownScene& shown) {
     if (serial_ > 0) serial.emplace();  // the frames of the scene shown go first
     try {
         if (order.open) goes_on(Opening::Step::Reads);
-        const bool done = order.open ? !read(*order.open, shown) : swap(order, shown);
-        if (!done && goes_on(Opening::Step::Builds)) build(order, shown);
+        const bool done = order.open ? !read(*order.open, shown)
+                                     : !order.finer && swap(order, shown);
+        const auto step = order.finer ? Opening::Step::Dices : Opening::Step::Builds;
+        if (!done && goes_on(step)) build(order, shown);
     } catch (const std::bad_alloc&) {
         shown.scene.reset();
         shown.exit_code = kExitRetry;
@@ -301,10 +332,15 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     EditedShaders shaders;
     if (!apply_edits(imported, edits, read_.request, diagnostics, &shaders)) return;
     SceneDescription edited = copy_without_geometry(imported).description;
-    BuiltScene built = build_imported(std::move(imported), diagnostics);
+    coarse_ = begins_coarse(order);
+    if (coarse_) imported.options.dice = kCoarseDice;
+    BuildAgain again{{}, textures_, &overtaken_};
+    BuiltScene built =
+        build_imported(std::move(imported), diagnostics, order.finer ? &again : nullptr);
     shown.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
     if (!built.scene) return;
     shown.exit_code = kExitOk;
+    coarse_ = coarse_ && built.redicer;
     // What is diced or exposed by itself depends on its shaders.
     swapper_.reset();
     if (!built.redicer && !read_.request.auto_exposure)
@@ -326,6 +362,22 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     info->serial = serial_ + 1;
     shown.info = std::move(info);
     shown.build_ms = watch.ms();
+    if (!coarse_) dices_fast_ = shown.scene->dice.triangles && shown.scene->dice.ms < kFastDiceMs;
+    if (order.finer) pose(shown);
+}
+
+// So that no frame waits for the trees of many triangles.
+void SceneMaker::pose(ShownScene& shown) const {
+    FrameStats stats;
+    pose_frame(*shown.scene, shown.scene->options.start_time, shown.settings, stats,
+               *shown.diagnostics);
+}
+
+bool SceneMaker::begins_coarse(const Order& order) const {
+    const SceneOptions& options = read_.scene->options;
+    if (!hurries_ || order.finer || options.dice >= kCoarseDice) return false;
+    const bool fast = dices_fast_ && !order.open;
+    return !fast && may_dice(read_.scene->description, options);
 }
 
 }  // namespace kinora

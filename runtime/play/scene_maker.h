@@ -1,6 +1,7 @@
 // runtime/play/scene_maker.h: reads and builds scenes on a thread of its own.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -21,17 +22,18 @@ struct MakerCounts {
     uint64_t kernels = 0;  // compiled for a scene that stood
 };
 
-// Another scene on its way.
+// Another scene on its way, or a finer one of the same.
 struct Opening {
-    enum class Step : uint8_t { None, Reads, Builds } step = Step::None;
+    enum class Step : uint8_t { None, Reads, Builds, Dices } step = Step::None;
     double seconds = 0;  // since it was begun
 };
 
 class SceneMaker {
   public:
     // `done` is called from the thread when a scene can be taken, or was tried in vain.
-    // `shows_broken`: PlayerSetup's.
-    SceneMaker(std::function<void()> done, bool shows_broken);
+    // `hurries`: displaced meshes that take long to dice are coarse in a first scene, and a second
+    // one with the dice that was asked for follows by itself. `shows_broken`: PlayerSetup's.
+    SceneMaker(std::function<void()> done, bool hurries, bool shows_broken);
     ~SceneMaker();  // waits for the scene under way
     SceneMaker(const SceneMaker&) = delete;
 
@@ -53,23 +55,27 @@ class SceneMaker {
 
   private:
     struct Order {
-        std::optional<SceneRequest> open;  // none: the scene as read
-        SceneEdits edits;
+        std::optional<SceneRequest> open{};  // none: the scene as read
+        SceneEdits edits{};
         bool replaces_camera = false;
+        bool finer = false;  // the scene made last, as the request has it: gives way to any other
     };
     void run();
+    void order(Order order);
     std::unique_ptr<ShownScene> make(const Order& order);
     void make(const Order& order, ShownScene& shown);
     bool goes_on(Opening::Step step);  // false: cancelled
     bool read(const SceneRequest& request, ShownScene& shown);
     bool swap(const Order& order, ShownScene& shown);
     void build(const Order& order, ShownScene& shown);
+    void pose(ShownScene& shown) const;
+    bool begins_coarse(const Order& order) const;
     void begin(ShownScene& shown) const;
     SceneEdits with_shared_texts(SceneEdits edits) const;
     void put(std::unique_ptr<ShownScene> made);
 
     std::function<void()> done_;
-    const bool shows_broken_;
+    const bool hurries_, shows_broken_;
     mutable std::mutex mutex_;
     std::condition_variable wanted_;
     std::optional<Order> order_;
@@ -81,6 +87,7 @@ class SceneMaker {
     bool cancelled_ = false;  // it is not wanted any more
     Opening::Step step_ = Opening::Step::None;
     Stopwatch began_;
+    std::atomic<bool> overtaken_{false};  // a finer scene in work, by another order
 
     // What reading a file leaves.
     struct AsRead {
@@ -98,6 +105,9 @@ class SceneMaker {
     EditedShaders shaders_;
     std::shared_ptr<TextureStore> textures_;  // of the scene built last
     std::shared_ptr<const SceneInfo> info_;
+    bool coarse_ = false;        // the scene built last
+    bool coarse_shown_ = false;  // the last good one
+    bool dices_fast_ = false;    // the last one that was not coarse
     uint64_t serial_ = 0;
     int swaps_ = 0;  // so far
     std::thread thread_;

@@ -41,6 +41,7 @@ struct ShownScene {
     double build_ms = 0;                       // of edits and build, or swap
     int exit_code = 0;                         // kinora-render's, where it could not be made
     bool replaces_camera = true;               // another scene, not the same one changed
+    bool finer = false;                        // the one shown, with what is displaced diced finer
 
     Scene& seen() const { return posed ? *posed : *scene; }
 };

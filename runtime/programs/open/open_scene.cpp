@@ -159,14 +159,15 @@ std::optional<ImportedScene> import_requested(const SceneRequest& request,
     return imported;
 }
 
-BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics) {
+BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
+                          const BuildAgain* again) {
     BuiltScene built;
     if (may_dice(imported.description, imported.options))
         built.redicer = std::make_unique<Redicer>(imported.description, imported.options);
     if (exit_code_of_findings(diagnostics, 0) == 0)
         built.scene =
             build_scene(std::make_shared<SceneDescription>(std::move(imported.description)),
-                        imported.options, diagnostics);
+                        imported.options, diagnostics, again);
     if (built.scene && !light_black_scene(*built.scene, diagnostics)) built.scene.reset();
     if (!built.scene || !built.scene->dice.triangles) built.redicer.reset();
     if (built.redicer) built.redicer->share(*built.scene, diagnostics.files);

@@ -35,7 +35,8 @@ struct BuiltScene {
     std::unique_ptr<Scene> scene;      // null: findings say why
     std::unique_ptr<Redicer> redicer;  // null where nothing is diced
 };
-BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics);
+BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
+                          const BuildAgain* again = nullptr);
 
 // The picture's size, its samples, filter and so on, and its gain. Automatic exposure makes small
 // pictures of the scene; a `stop` that is not 0 ends them.

@@ -79,6 +79,31 @@ std::string front_svg(const Plot& plot, const LogAxis& x, const LogAxis& y, doub
     return front.size() > 1 ? fmt::format("<path class=front d=\"{}\"/>", line) : "";
 }
 
+// A name beside its point, above those that stand there already.
+class Labels {
+  public:
+    std::string svg(double x, double y, const std::string& text) {
+        const bool right = x > 0.8 * kWide;  // the text would leave the picture
+        const double width = kLetter * double(text.size());
+        Box box{right ? x - 8 - width : x + 8, y - 6, width};
+        while (std::ranges::any_of(placed_, [&](const Box& other) { return meet(box, other); }))
+            box.y -= kLine;
+        placed_.push_back(box);
+        return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor={}>{}</text>",
+                           right ? x - 8 : x + 8, box.y, right ? "end" : "start", html_text(text));
+    }
+
+  private:
+    static constexpr double kLetter = 7, kLine = 14;
+    struct Box {
+        double left, y, width;
+    };
+    static bool meet(const Box& a, const Box& b) {
+        return a.left < b.left + b.width && b.left < a.left + a.width && std::abs(a.y - b.y) < kLine;
+    }
+    std::vector<Box> placed_;
+};
+
 }  // namespace
 
 std::string html_text(const std::string& text) {
@@ -123,6 +148,7 @@ std::string plot_svg(const Plot& plot) {
             y.at(plot.floor), kLeft, kWide - kRight, y.at(plot.floor) - 4);
     svg += front_svg(plot, x, y, least);
     const std::vector<std::string> series = series_of(plot);
+    Labels labels;
     for (const PlotPoint& point : plot.points) {
         if (!(point.x > 0)) continue;
         size_t s = size_t(std::ranges::find(series, point.series) - series.begin());
@@ -133,10 +159,7 @@ std::string plot_svg(const Plot& plot) {
             point.on_front ? "point best" : "point", px, py, point.named ? 6 : 4,
             s * 360 / std::max<size_t>(series.size(), 1), html_text(point.label), point.x, point.y);
         if (!point.named) continue;
-        const bool right = px > 0.8 * kWide;  // the text would leave the picture
-        svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor={}>{}</text>",
-                           right ? px - 8 : px + 8, py - 6, right ? "end" : "start",
-                           html_text(point.label));
+        svg += labels.svg(px, py, point.label);
     }
     return svg + "</svg></figure>\n";
 }

@@ -78,9 +78,9 @@ std::string summary_html(const TradeResults& r) {
         r.floor.picture.rmse, r.target, r.threads, r.used_s, r.budget_s);
     if (r.plan.final_samples > 0)
         text += fmt::format(
-            "<p>To keep within the budget, final's knobs were measured with {} samples, beside a "
-            "base with as many{}.</p>\n",
-            r.plan.final_samples,
+            "<p>To keep within the budget, final's knobs were measured with {} sample{} a pixel, "
+            "beside a base with as many{}.</p>\n",
+            r.plan.final_samples, r.plan.final_samples == 1 ? "" : "s",
             r.plan.preview_samples > 0 ? ", and preview's likewise" : "");
     return text +
            "<p>Times are CPU times of a frame: the median of its ratios to the base's renders "

@@ -130,7 +130,8 @@ std::string plan_text(const TradeResults& r) {
         "{} variants, of which {} do nothing here and {} are combinations, {} times each",
         r.rows.size(), as_base, combinations, plan.frames * plan.rounds);
     if (plan.final_samples > 0)
-        text += fmt::format(", final's knobs with {} samples", plan.final_samples);
+        text += fmt::format(", final's knobs with {} sample{}", plan.final_samples,
+                            plan.final_samples == 1 ? "" : "s");
     text += fmt::format(", estimated {:.0f} s; budget {:g} s{}", 1e-3 * plan.variants_ms,
                         r.budget_s, plan.fits ? "" : ", which is too little for all");
     return text;

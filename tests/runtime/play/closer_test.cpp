@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <thread>
 
 #include "../displacement_scenes.h"
 #include "played.h"
+#include "runtime/play/scene_maker.h"
 
 namespace kinora {
 namespace {
@@ -14,8 +16,8 @@ constexpr const char* kHills =
     "displacement hills() { P += 0.3 * noise(5 * P) * N; N = calculatenormal(P); }\n"
     "surface slopes() { normal n = normalize(N); Oi = 1; Ci = color(n) * 0.5 + 0.5; }\n";
 
-// A floor that the camera looks down at from 30 above it.
-std::string floor_file() {
+// A floor that the camera looks down at from 30 above it, and where wanted one below it.
+std::string floor_file(bool two = false) {
     SceneText scene;
     scene.cameras =
         "<camera id=\"eye\"><optics><technique_common><perspective><xfov>50</xfov><znear>0.01</znear>"
@@ -23,6 +25,7 @@ std::string floor_file() {
     scene.camera_node =
         "<node id=\"eye-node\"><translate>0.3 0.2 30</translate><instance_camera url=\"#eye\"/></node>";
     scene.square("floor", 2).look("look", kHills, kDisplaced).place("floor", "look");
+    if (two) scene.place("floor", "look", "<translate>0 0 -1</translate>", "low");
     const std::string file =
         std::filesystem::temp_directory_path() / ("closer_" + std::to_string(getpid()) + ".dae");
     write(file, scene.text());
@@ -66,6 +69,54 @@ TEST(Closer, MeshesAreDicedAgainWhileTheCameraMoves) {
     }
     EXPECT_LE(best, coarse / 4) << coarse;
     EXPECT_FALSE(player.picture()->refined);
+}
+
+// Scenes in the order in which they are made, until the maker has no more to do.
+std::vector<std::unique_ptr<ShownScene>> all_made(SceneMaker& maker) {
+    std::vector<std::unique_ptr<ShownScene>> all;
+    while (!maker.idle()) {
+        if (auto made = maker.take()) all.push_back(std::move(made));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return all;
+}
+
+// The oracle is the scene that nobody hurries.
+TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
+    const std::string file = floor_file(true);
+    SceneMaker hurried([] {}, true, false), slow([] {}, false, false);
+    const auto open = [&](SceneMaker& maker) {
+        SceneRequest request = small_request(file);
+        request.look_from = dvec3(0.3, 0.2, 3);
+        request.look_at = "0.3,0.2,0";
+        maker.open(request, {}, true);
+        return all_made(maker);
+    };
+    auto whole = open(slow), parts = open(hurried);
+    ASSERT_EQ(whole.size(), 1u);
+    const DiceStats& asked = whole[0]->scene->dice;
+    EXPECT_EQ(asked.pixels, 1);
+    // The first may have been replaced before this thread looked.
+    ASSERT_TRUE(parts.size() == 1 || parts.size() == 2);
+    EXPECT_TRUE(parts[0]->replaces_camera);
+    if (parts.size() == 2) {
+        EXPECT_LT(parts[0]->scene->dice.triangles * 4, asked.triangles);
+        EXPECT_FALSE(parts[1]->replaces_camera);
+    }
+    EXPECT_EQ(parts.back()->scene->dice.triangles, asked.triangles);
+    EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
+    EXPECT_EQ(hurried.counts().scenes, 2u);
+
+    // An edit need not wait for the finer scene, and comes to be diced as finely.
+    SceneEdits edits;
+    edits.hidden = {"low"};
+    hurried.open(small_request(file), {}, true);
+    hurried.edit(edits);
+    parts = all_made(hurried);
+    std::filesystem::remove(file);
+    ASSERT_FALSE(parts.empty());
+    EXPECT_EQ(parts.back()->edits, edits);
+    EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
 }
 
 }  // namespace

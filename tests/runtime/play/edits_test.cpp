@@ -95,7 +95,7 @@ TEST(Swap, WhatChangesMoreThanAKernelIsBuilt) {
 
 // The file that a text names is read before its kernels are shown: no frame waits for it.
 TEST(Swap, ReadsThePictureThatATextNames) {
-    SceneMaker maker([] {}, false);
+    SceneMaker maker([] {}, true, false);
     const auto taken = [&] {
         std::unique_ptr<ShownScene> made;
         while (!(made = maker.take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));

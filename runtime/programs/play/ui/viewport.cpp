@@ -30,11 +30,13 @@ void shadowed_text(ImDrawList* list, ImVec2 at, ImU32 color, const std::string& 
     list->AddText(at, color, text.c_str());
 }
 
-// "" where no other scene is on its way.
+// "" where no other or finer scene is on its way.
 std::string opening_text(const Player& player) {
     const Opening opening = player.opening();
     if (opening.step == Opening::Step::None)
         return player.load_state() == LoadState::Loading ? "Reading the scene" : "";
+    if (opening.step == Opening::Step::Dices)
+        return fmt::format("Splitting displaced surfaces finer, {:.0f} s", opening.seconds);
     const char* what =
         opening.step == Opening::Step::Reads ? "Reading the scene" : "Building the scene";
     return fmt::format("{}, {:.0f} s. Esc leaves it", what, opening.seconds);
