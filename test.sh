@@ -38,8 +38,8 @@ if ((all)); then
     stage "libFuzzer build" scripts/build fuzzers
     stage "fuzzing of readers" scripts/fuzz_readers 30
     stage "AArch64 build" scripts/cross-arm64
-    # Emulated code is ten times slower: fewer random programs.
-    stage "AArch64 tests" env KINORA_FUZZ=200 ctest --preset arm64 -j "$(nproc)"
+    # Emulated code is ten times slower: fewer random programs, and random shaders in their own stage.
+    stage "AArch64 tests" env KINORA_FUZZ=200 KINORA_FUZZ_RSL=10 ctest --preset arm64 -j "$(nproc)"
     stage "AArch64 against x86-64" scripts/same_bits build/release build/arm64
     stage "AArch64 fuzzing of code" scripts/fuzz build/arm64 code 20
     stage "AArch64 fuzzing of shaders" scripts/fuzz build/arm64 shaders 20
