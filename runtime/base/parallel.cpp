@@ -56,7 +56,7 @@ const TasksModule* tasks() {
 void set_thread_count(int n) {
     CHECK_GE(n, 1);
     const std::lock_guard lock(g_changing);
-    g_threads = n;
+    if (g_threads.exchange(n) == n) return;  // loops of others may run
     if (const TasksModule* module = g_tasks) module->kinora_limit_threads(n);
 }
 

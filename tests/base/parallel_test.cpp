@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -65,6 +66,27 @@ TEST_P(ParallelFor, RunsInlineWhereItsThreadSaysSo) {
         EXPECT_EQ(done, 1000u);
     });
     background.join();
+}
+
+// As where a second player opens its scene while the first one renders.
+TEST_P(ParallelFor, TheSameCountMayBeSetWhileLoopsRun) {
+    std::atomic<bool> quit = false;
+    std::atomic<size_t> visited = 0;
+    std::vector<std::thread> others;
+    for (int k = 0; k < 3; ++k)
+        others.emplace_back([&] {
+            while (!quit)
+                parallel_for(0, 64, 1, [&](size_t begin, size_t end) {
+                    for (size_t i = begin; i < end; ++i) ++visited;
+                });
+        });
+    for (int k = 0; k < 1000; ++k) {
+        set_thread_count(GetParam());
+        std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+    quit = true;
+    for (std::thread& other : others) other.join();
+    EXPECT_EQ(visited % 64, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 4));

@@ -2,12 +2,14 @@
 // between pictures that are not refined. The oracle is the refined picture of the same view.
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
 #include "../displacement_scenes.h"
 #include "played.h"
 #include "runtime/play/scene_maker.h"
+#include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 namespace {
@@ -113,10 +115,31 @@ TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
     hurried.open(small_request(file), {}, true);
     hurried.edit(edits);
     parts = all_made(hurried);
-    std::filesystem::remove(file);
     ASSERT_FALSE(parts.empty());
     EXPECT_EQ(parts.back()->edits, edits);
     EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
+    std::filesystem::remove(file);
+}
+
+// A text that cannot be compiled is told, and the scene becomes finer without it.
+TEST(Coarse, ABrokenTextDoesNotKeepASceneCoarse) {
+    const std::string file = floor_file();
+    SceneMaker maker([] {}, true, false);
+    maker.open(small_request(file), {}, true);
+    while (maker.counts().scenes == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    SceneEdits edits;
+    edits.texts = {{"look", file, "surface slopes( {", 1}};
+    maker.edit(edits);
+    auto made = all_made(maker);
+    std::filesystem::remove(file);
+    const auto broken = std::ranges::find_if(made, [](const auto& one) { return !one->scene; });
+    ASSERT_NE(broken, made.end());
+    EXPECT_FALSE((*broken)->findings.empty());
+    EXPECT_EQ((*broken)->exit_code, kExitShader);
+    std::erase_if(made, [](const auto& one) { return !one->scene; });
+    ASSERT_FALSE(made.empty());
+    EXPECT_EQ(made.back()->edits, SceneEdits{});
+    EXPECT_EQ(made.back()->scene->dice.pixels, 1);
 }
 
 }  // namespace
