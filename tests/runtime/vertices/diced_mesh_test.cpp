@@ -1,4 +1,4 @@
-// tests/runtime/diced_mesh_test.cpp: meshes split in parts by several threads, against a definition
+// tests/runtime/vertices/diced_mesh_test.cpp: meshes split in parts by several threads, against a definition
 // that splits one triangle after another and numbers what it meets in a map.
 #include "runtime/vertices/diced_mesh.h"
 
