@@ -13,8 +13,10 @@ namespace kinora::raytrace {
 
 namespace {
 
-void gather(const std::vector<GeometryState>& rows, size_t count, const uint32_t* instance,
+// Whether any of the rows is an instance or mirrored.
+bool gather(const std::vector<GeometryState>& rows, size_t count, const uint32_t* instance,
             const uint32_t* primitive, const float* u, const float* v, TrianglePoints& at) {
+    bool any_placed = false;
     for (size_t i = 0; i < kPoints; ++i) {
         const size_t from = std::min(i, count - 1);  // the tail repeats the last hit
         const Geometry& g = rows[instance[from]].seen;
@@ -23,7 +25,9 @@ void gather(const std::vector<GeometryState>& rows, size_t count, const uint32_t
             std::memcpy(at.corner[k][i], &g.positions[index[k]], sizeof(vec4));
         at.u[i] = u[from];
         at.v[i] = v[from];
+        any_placed |= (g.kind == GeometryKind::Instanced) | g.mirrored;
     }
+    return any_placed;
 }
 
 // For triangles so small or large that the squared length of their normal leaves the floats.
@@ -95,11 +99,12 @@ void Accel::surface_points(size_t count, const uint32_t* instance, const uint32_
     PointBlock block;
     for (size_t first = 0; first < count; first += kPoints) {
         const size_t n = std::min(kPoints, count - first);
-        gather(rows, n, instance + first, primitive + first, u + first, v + first, at);
+        const bool any_placed =
+            gather(rows, n, instance + first, primitive + first, u + first, v + first, at);
         const uint32_t careful =
             kernels.interpolate(at, gamma(7), kSmallestNormal2, kLargestNormal2, block);
         mend_normals(at, careful, block);
-        apply_rows(rows, instance + first, n, block);
+        if (any_placed) apply_rows(rows, instance + first, n, block);
         kernels.normalize(block);
         for (int c = 0; c < 3; ++c) {
             copy_block(block.P[c], n, out.P[c] + first);

@@ -1,5 +1,7 @@
-// runtime/exr_module/exr_module.cpp: EXR files through OpenEXR.
+// runtime/exr_module/exr_module.cpp: EXR files through OpenEXR's C++ library.
 #include "runtime/exr_module/exr_module.h"
+
+#include "runtime/exr_module/exr_writer_p.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -11,10 +13,12 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -38,10 +42,6 @@ class ExrStream : public Imf::OStream {
     std::FILE* file_;
 };
 
-using kinora::in_range_of_halves;
-
-constexpr const char* kColors[] = {"R", "G", "B", "A"};
-
 // Whether the call throws nothing; else what it throws, as a text.
 template <class Call>
 bool works(KinoraExrError& error, Call&& call) {
@@ -60,85 +60,75 @@ bool works(KinoraExrError& error, Call&& call) {
 
 }  // namespace
 
-struct KinoraExrWriter {
-    KinoraExrWriter(std::FILE* file, const char* path) : stream(path, file) {}
+namespace {
 
-    void begin(const KinoraExrPicture& picture);
-    void write(int top, int rows, const float* rgba, const float* const* planes);
-    void end() {
-        // Their destructors write the table of lines.
-        colors.reset();
-        all.reset();
+// Frames through OpenEXR's own compressor.
+class ZlibWriter final : public KinoraExrWriter {
+  public:
+    ZlibWriter(std::FILE* file, const char* path, const KinoraExrPicture& picture,
+               std::vector<ExrChannel> channels)
+        : stream_(path, file),
+          width_(picture.width),
+          half_(picture.half != 0),
+          channels_(std::move(channels)) {
+        Imf::Header header(width_, picture.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (int i = 0; i < picture.texts; ++i)
+            header.insert(picture.text[i].key, Imf::StringAttribute(picture.text[i].value));
+        for (const ExrChannel& channel : channels_)
+            header.channels().insert(channel.name, Imf::Channel(type_of(channel)));
+        file_.emplace(stream_, header, 0);
     }
 
-    ExrStream stream;
-    int width = 0;
-    bool half = false;
-    std::optional<Imf::RgbaOutputFile> colors;  // halves without planes
-    std::optional<Imf::OutputFile> all;
-    std::vector<std::string> plane_channels;  // "": not in the file
-    std::vector<Imf::Rgba> pixels;            // of halves
+    // Frame buffers begin at the picture's first row.
+    void write(int top, int rows, const float* rgba, const float* const* planes) override {
+        if (half_) halves_.take(rgba, 4 * size_t(width_) * size_t(rows));
+        Imf::FrameBuffer buffer;
+        for (const ExrChannel& channel : channels_) {
+            const bool plane = channel.plane >= 0;
+            const size_t step = plane ? sizeof(float) : 4 * (half_ ? sizeof(half) : sizeof(float));
+            const size_t row = step * size_t(width_);
+            const void* first = plane   ? static_cast<const void*>(planes[channel.plane])
+                                : half_ ? static_cast<const void*>(halves_.data() + channel.color)
+                                        : static_cast<const void*>(rgba + channel.color);
+            char* base = const_cast<char*>(static_cast<const char*>(first));
+            buffer.insert(channel.name,
+                          Imf::Slice(type_of(channel), base - row * size_t(top), step, row));
+        }
+        file_->setFrameBuffer(buffer);
+        file_->writePixels(rows);
+    }
+    void end() override {
+        file_.reset();  // whose destructor writes the table of lines
+    }
 
   private:
-    void write_all(int top, int rows, const float* rgba, const float* const* planes);
+    static Imf::PixelType type_of(const ExrChannel& channel) {
+        return channel.half ? Imf::HALF : Imf::FLOAT;
+    }
+
+    ExrStream stream_;
+    int width_;
+    bool half_;
+    std::vector<ExrChannel> channels_;
+    Halves halves_;
+    std::optional<Imf::OutputFile> file_;
 };
 
-void KinoraExrWriter::begin(const KinoraExrPicture& picture) {
-    width = picture.width;
-    half = picture.half != 0;
-    Imf::Header header(width, picture.height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    for (int i = 0; i < picture.texts; ++i)
-        header.insert(picture.text[i].key, Imf::StringAttribute(picture.text[i].value));
-    if (picture.planes == 0 && half) {
-        colors.emplace(stream, header, Imf::WRITE_RGBA, 0);
-        return;
-    }
-    Imf::ChannelList& channels = header.channels();
-    for (const char* name : kColors)
-        channels.insert(name, Imf::Channel(half ? Imf::HALF : Imf::FLOAT));
+}  // namespace
+
+std::vector<ExrChannel> exr_channels(const KinoraExrPicture& picture) {
+    std::map<std::string, ExrChannel> by_name;
+    auto add = [&](ExrChannel channel) { by_name[channel.name] = channel; };
+    for (int k = 0; k < 4; ++k) add({std::string(1, "RGBA"[k]), picture.half != 0, k, -1});
     for (int i = 0; i < picture.planes; ++i) {
-        // A parameter that is called like a channel of the picture is R.V there.
         std::string name = picture.plane_names[i];
-        if (channels.findChannel(name) != nullptr) name += ".V";
-        if (picture.plane_in_file[i]) channels.insert(name, Imf::Channel(Imf::FLOAT));
-        plane_channels.push_back(picture.plane_in_file[i] ? name : "");
+        if (by_name.contains(name)) name += ".V";
+        if (picture.plane_in_file[i]) add({name, false, 0, i});
     }
-    all.emplace(stream, header, 0);
-}
-
-// Frame buffers begin at the picture's first row.
-void KinoraExrWriter::write(int top, int rows, const float* rgba, const float* const* planes) {
-    const size_t count = size_t(width) * size_t(rows);
-    if (half) {
-        pixels.resize(count);
-        for (size_t i = 0; i < count; ++i, rgba += 4)
-            pixels[i] = {in_range_of_halves(rgba[0]), in_range_of_halves(rgba[1]),
-                         in_range_of_halves(rgba[2]), in_range_of_halves(rgba[3])};
-        rgba -= 4 * count;
-    }
-    if (!colors) return write_all(top, rows, rgba, planes);
-    colors->setFrameBuffer(pixels.data() - size_t(top) * size_t(width), 1, size_t(width));
-    colors->writePixels(rows);
-}
-
-void KinoraExrWriter::write_all(int top, int rows, const float* rgba, const float* const* planes) {
-    Imf::FrameBuffer buffer;
-    auto add = [&](const std::string& name, Imf::PixelType type, const void* first, size_t step) {
-        const size_t row = step * size_t(width);
-        char* base = const_cast<char*>(static_cast<const char*>(first));
-        buffer.insert(name, Imf::Slice(type, base - row * size_t(top), step, row));
-    };
-    for (size_t k = 0; k < 4; ++k)
-        if (half)
-            add(kColors[k], Imf::HALF, &pixels[0].r + k, sizeof(Imf::Rgba));
-        else
-            add(kColors[k], Imf::FLOAT, rgba + k, 4 * sizeof(float));
-    for (size_t k = 0; k < plane_channels.size(); ++k)
-        if (!plane_channels[k].empty())
-            add(plane_channels[k], Imf::FLOAT, planes[k], sizeof(float));
-    all->setFrameBuffer(buffer);
-    all->writePixels(rows);
+    std::vector<ExrChannel> channels;
+    for (auto& [name, channel] : by_name) channels.push_back(std::move(channel));
+    return channels;
 }
 
 extern "C" {
@@ -147,8 +137,11 @@ KinoraExrWriter* kinora_exr_begin(std::FILE* file, const char* path,
                                   const KinoraExrPicture* picture, KinoraExrError* error) {
     std::unique_ptr<KinoraExrWriter> writer;
     const bool good = works(*error, [&] {
-        writer = std::make_unique<KinoraExrWriter>(file, path);
-        writer->begin(*picture);
+        std::vector<ExrChannel> channels = exr_channels(*picture);
+        if (picture->compressor.compress)
+            writer = chunk_writer(file, path, *picture, std::move(channels));
+        else
+            writer = std::make_unique<ZlibWriter>(file, path, *picture, std::move(channels));
     });
     return good ? writer.release() : nullptr;
 }

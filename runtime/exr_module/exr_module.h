@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
@@ -18,6 +19,13 @@ struct KinoraExrText {
     const char *key, *value;
 };
 
+// What makes zlib's format faster than zlib. Its result depends on `in` alone: the bytes written to
+// `out`, 0 where they are more than `room`.
+struct KinoraExrCompressor {
+    void* state;  // the caller's, given back
+    size_t (*compress)(void* state, const void* in, size_t count, void* out, size_t room);
+};
+
 // RGBA by halves or floats, and planes as float channels; linear, associated, ZIP.
 struct KinoraExrPicture {
     int width, height;
@@ -27,6 +35,7 @@ struct KinoraExrPicture {
     const int* plane_in_file;        // ... 0: only its name is taken
     int texts;
     const KinoraExrText* text;
+    KinoraExrCompressor compressor;  // stays while the picture is written; none: OpenEXR's zlib
 };
 
 // Rows from the top.

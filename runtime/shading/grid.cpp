@@ -98,6 +98,15 @@ vec3 unit_or_zero(vec3 v) {
                                                                          : vec3(0);
 }
 
+// std::fill, sixteen at once.
+void fill_row(float* from, float* to, float value) {
+    float block[kColumnPoints];
+    std::fill_n(block, kColumnPoints, value);
+    for (; to - from >= ptrdiff_t(kColumnPoints); from += kColumnPoints)
+        std::memcpy(from, block, sizeof(block));
+    std::copy_n(block, to - from, from);
+}
+
 // Up to sixteen numbers of a block, nearly always all.
 void copy_block(const float* block, size_t count, float* to) {
     if (count == kColumnPoints)
@@ -473,7 +482,7 @@ class HitSource : public PointSource {
             for (size_t c = 0; c < 4; ++c) {
                 auto fill_entry = [&](size_t first, const mat4& m) {
                     if (float* row = column(first + r * 4 + c))
-                        std::fill(row + begin, row + end, m[int(c)][int(r)]);
+                        fill_row(row + begin, row + end, m[int(c)][int(r)]);
                 };
                 fill_entry(kColToCurrent, to_current);
                 fill_entry(kColFromCurrent, from_current);

@@ -272,7 +272,12 @@ void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight&
     static_assert(raytrace::kPacket == kColumnPoints);
     raytrace::LeavingRays& rays = fresh_.rays;
     const size_t first = size_t(fresh_.count), end = first + points.size();
-    alignas(64) float L[3][raytrace::kPacket] = {}, N[3][raytrace::kPacket] = {};
+    const bool whole = points.size() == raytrace::kPacket;
+    alignas(64) float L[3][raytrace::kPacket], N[3][raytrace::kPacket];
+    if (!whole) {  // lanes that are not picked
+        std::memset(L, 0, sizeof L);
+        std::memset(N, 0, sizeof N);
+    }
     raytrace::KeptColumn columns[16];
     for (size_t k = 0; k < 3; ++k) {
         columns[k] = {at.accel[k], rays.P[k]};
@@ -280,30 +285,43 @@ void ShadowQueue::take(const Grid& grid, const LightPoints& at, const SentLight&
         columns[6 + k] = {at.Ng[k], rays.Ng[k]};
         columns[9 + k] = {light.L[k], L[k]};
         columns[12 + k] = {at.N[k], N[k]};
-        std::fill(rays.up[k] + first, rays.up[k] + end, 0.0f);
-        std::fill(rays.short_of[k] + first, rays.short_of[k] + end, 0.0f);
     }
     columns[15] = {at.normals && of_surface_ ? at.normals : static_cast<const void*>(at.zeros),
                    fresh_.normals};
     pick(columns, points, first);
     const float* M = &accel_from_camera_[0][0];
-    float* const of_L[3] = {L[0], L[1], L[2]};
-    float* const of_N[3] = {N[0], N[1], N[2]};
-    column_kernels().turn(M, {{L[0], L[1], L[2]}}, of_L);
-    column_kernels().turn(M, {{N[0], N[1], N[2]}}, of_N);
-    for (size_t k = 0; k < 3; ++k) {
-        std::copy(L[k] + first, L[k] + end, rays.way[k] + first);
-        std::copy(N[k] + first, N[k] + end, fresh_.N[k] + first);
+    if (whole) {
+        std::memset(rays.up, 0, sizeof rays.up);
+        std::memset(rays.short_of, 0, sizeof rays.short_of);
+        float* const way[3] = {rays.way[0], rays.way[1], rays.way[2]};
+        float* const normal[3] = {fresh_.N[0], fresh_.N[1], fresh_.N[2]};
+        column_kernels().turn(M, {{L[0], L[1], L[2]}}, way);
+        column_kernels().turn(M, {{N[0], N[1], N[2]}}, normal);
+    } else {
+        float* const of_L[3] = {L[0], L[1], L[2]};
+        float* const of_N[3] = {N[0], N[1], N[2]};
+        column_kernels().turn(M, {{L[0], L[1], L[2]}}, of_L);
+        column_kernels().turn(M, {{N[0], N[1], N[2]}}, of_N);
+        for (size_t k = 0; k < 3; ++k) {
+            std::fill(rays.up[k] + first, rays.up[k] + end, 0.0f);
+            std::fill(rays.short_of[k] + first, rays.short_of[k] + end, 0.0f);
+            std::copy(L[k] + first, L[k] + end, rays.way[k] + first);
+            std::copy(N[k] + first, N[k] + end, fresh_.N[k] + first);
+        }
     }
+    Target target{{light.Cl[0], light.Cl[1], light.Cl[2]}, 0};
+    const uint32_t endless = light.solar;
+    const uint32_t* const hits = &grid.points[at.first];
     for (size_t j = 0; j < points.size(); ++j) {
         const size_t lane = first + j;
-        rays.endless[lane] = light.solar;
-        fresh_.hit[lane] = grid.points[at.first + points[j]];
-        fresh_.target[lane] = {{light.Cl[0], light.Cl[1], light.Cl[2]}, points[j]};
+        rays.endless[lane] = endless;
+        fresh_.hit[lane] = hits[points[j]];
+        target.point = points[j];
+        fresh_.target[lane] = target;
         if (!light.samples || light.solar) continue;
         const vec3 off = before_sample(light.samples->hits, points[j],
                                        {rays.P[0][lane], rays.P[1][lane], rays.P[2][lane]},
-                                       {L[0][lane], L[1][lane], L[2][lane]});
+                                       {rays.way[0][lane], rays.way[1][lane], rays.way[2][lane]});
         for (int k = 0; k < 3; ++k) rays.short_of[k][lane] = off[k];
     }
     fresh_.count = int(end);
@@ -386,9 +404,13 @@ void ShadowQueue::flush() {
     if (fresh_.count == 0) return;
     const uint32_t all = fresh_.lanes();
     uint32_t on_facets = 0;
-    for (int j = 0; of_surface_ && j < fresh_.count; ++j) {
+    if (of_surface_) {
         const auto& Ng = fresh_.rays.Ng;
-        on_facets |= uint32_t((Ng[0][j] != 0) | (Ng[1][j] != 0) | (Ng[2][j] != 0)) << j;
+        uint32_t is_set[raytrace::kPacket];
+        for (int j = 0; j < raytrace::kPacket; ++j)
+            is_set[j] = uint32_t((Ng[0][j] != 0) | (Ng[1][j] != 0) | (Ng[2][j] != 0));
+        for (int j = 0; j < raytrace::kPacket; ++j) on_facets |= is_set[j] << j;
+        on_facets &= all;
     }
     const uint32_t lifted = on_facets ? lift(on_facets) : 0;
     aim(fresh_);

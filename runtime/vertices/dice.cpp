@@ -6,11 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/description/pair_numbers.h"
-
 namespace kinora {
 
 namespace {
+
+constexpr uint32_t kNotUsed = ~0u;
 
 DicePoint midpoint(DicePoint a, DicePoint b) {
     return {(a.i + b.i) / 2, (a.j + b.j) / 2};
@@ -18,92 +18,6 @@ DicePoint midpoint(DicePoint a, DicePoint b) {
 bool has_midpoint(DicePoint a, DicePoint b) {
     return ((a.i + b.i) & 1) == 0 && ((a.j + b.j) & 1) == 0;
 }
-
-class Splitter {
-  public:
-    Splitter(const DiceMetric& metric, FunctionRef<bool(DicePoint, DicePoint)> too_long,
-             size_t limit, DicedTriangle& out)
-        : metric_(metric), too_long_(too_long), limit_(limit), out_(out) {}
-
-    bool run() {
-        const std::array<DicePoint, 3> corners = {DicePoint{0, 0}, DicePoint{kDiceOne, 0},
-                                                  DicePoint{0, kDiceOne}};
-        for (DicePoint p : corners) number(p);
-        split(corners, {true, true, true});
-        return out_.triangles.size() / 3 <= limit_;
-    }
-
-  private:
-    using Corners = std::array<DicePoint, 3>;
-    using Open = std::array<bool, 3>;  // edge k, from corner k to the next, is not known to stay
-
-    void split(const Corners& p, Open open) {
-        if (out_.triangles.size() / 3 > limit_) return;
-        int count = 0;
-        for (int k = 0; k < 3; ++k) {
-            DicePoint a = p[size_t(k)], b = p[size_t((k + 1) % 3)];
-            bool& o = open[size_t(k)];
-            o = o && has_midpoint(a, b) && too_long_(a, b);
-            count += o;
-        }
-        if (count == 0) return emit(p);
-        if (count == 3) return split_three(p);
-        // Turned so that edge 0 is the only one split, or edge 2 the only one that stays.
-        size_t first = 0;
-        while (count == 1 ? !open[first] : open[(first + 2) % 3]) ++first;
-        Corners q = {p[first], p[(first + 1) % 3], p[(first + 2) % 3]};
-        count == 1 ? split_one(q) : split_two(q);
-    }
-
-    void split_one(const Corners& p) {
-        DicePoint m = midpoint(p[0], p[1]);
-        split({p[0], m, p[2]}, {true, true, false});
-        split({m, p[1], p[2]}, {true, false, true});
-    }
-
-    // Edges 0 and 1: a corner triangle and a quadrilateral, cut along its shorter diagonal.
-    void split_two(const Corners& p) {
-        DicePoint m = midpoint(p[0], p[1]), n = midpoint(p[1], p[2]);
-        split({m, p[1], n}, {true, true, true});
-        if (square(p[0], n) <= square(m, p[2])) {
-            split({p[0], m, n}, {true, true, true});
-            split({p[0], n, p[2]}, {true, true, false});
-        } else {
-            split({p[0], m, p[2]}, {true, true, false});
-            split({m, n, p[2]}, {true, true, true});
-        }
-    }
-
-    void split_three(const Corners& p) {
-        DicePoint m = midpoint(p[0], p[1]), n = midpoint(p[1], p[2]), o = midpoint(p[2], p[0]);
-        constexpr Open kAll = {true, true, true};
-        split({p[0], m, o}, kAll);
-        split({m, p[1], n}, kAll);
-        split({o, n, p[2]}, kAll);
-        split({m, n, o}, kAll);
-    }
-
-    double square(DicePoint a, DicePoint b) const {
-        double i = double(a.i) - double(b.i), j = double(a.j) - double(b.j);
-        return i * i * metric_.e11 + 2 * i * j * metric_.e12 + j * j * metric_.e22;
-    }
-
-    uint32_t number(DicePoint p) {
-        uint32_t next = uint32_t(out_.points.size());
-        uint32_t n = numbers_.number(p.i, p.j, next);
-        if (n == next) out_.points.push_back(p);
-        return n;
-    }
-    void emit(const Corners& p) {
-        for (DicePoint point : p) out_.triangles.push_back(number(point));
-    }
-
-    DiceMetric metric_;
-    FunctionRef<bool(DicePoint, DicePoint)> too_long_;
-    size_t limit_;
-    DicedTriangle& out_;
-    PairNumbers numbers_;
-};
 
 // Whether a ball lies beside, above or behind the picture, by a seventh of its half size.
 bool out_of_view(const raytrace::Camera& camera, dvec3 from_eye, double radius) {
@@ -118,11 +32,143 @@ bool out_of_view(const raytrace::Camera& camera, dvec3 from_eye, double radius) 
 
 }  // namespace
 
+// What one call works on.
+struct TriangleDicer::Job {
+    const DiceMetric& metric;
+    EdgeRule longer;
+    double part;  // cut(): what is not longer than so many times is a part; dice(): 0
+    size_t limit;
+    DicedTriangle& out;
+
+    bool over_limit() const { return out.triangles.size() / 3 > limit; }
+    double square(DicePoint a, DicePoint b) const {
+        double i = double(a.i) - double(b.i), j = double(a.j) - double(b.j);
+        return i * i * metric.e11 + 2 * i * j * metric.e12 + j * j * metric.e22;
+    }
+};
+
+bool TriangleDicer::dice(const DiceMetric& metric, EdgeRule longer, const DiceCorners& whole,
+                         size_t limit, DicedTriangle& out) {
+    return run({metric, longer, 0, limit, out}, whole);
+}
+
+bool TriangleDicer::cut(const DiceMetric& metric, EdgeRule longer, double times, size_t limit,
+                        DicedTriangle& parts) {
+    return run({metric, longer, times, limit, parts}, kWholeTriangle);
+}
+
+bool TriangleDicer::run(const Job& job, const DiceCorners& whole) {
+    points_.clear();
+    edges_.clear();
+    job.out.points.clear();
+    job.out.triangles.clear();
+    Corners p;
+    Edges e;
+    for (size_t k = 0; k < 3; ++k) p[k] = add_point(whole[k]);
+    for (size_t k = 0; k < 3; ++k) e[k] = add_edge(p[k], p[(k + 1) % 3]);
+    split(job, p, e);
+    return !job.over_limit();
+}
+
+uint32_t TriangleDicer::add_point(DicePoint at) {
+    points_.push_back({at, kNotUsed});
+    return uint32_t(points_.size() - 1);
+}
+
+uint32_t TriangleDicer::add_edge(uint32_t from, uint32_t to) {
+    edges_.push_back({from, to, kNotUsed, 0, Edge::NotLookedAt});
+    return uint32_t(edges_.size() - 1);
+}
+
+bool TriangleDicer::splits(const Job& job, Edge& edge) const {
+    if (edge.state == Edge::NotLookedAt) {
+        DicePoint a = points_[edge.from].at, b = points_[edge.to].at;
+        bool split = has_midpoint(a, b) && job.longer(a, b, 1);
+        edge.state = split ? Edge::Splits : Edge::Stays;
+    }
+    return edge.state == Edge::Splits;
+}
+
+bool TriangleDicer::is_part(const Job& job, const Edges& e) const {
+    return job.part > 0 && std::ranges::none_of(e, [&](uint32_t k) {
+               return job.longer(points_[edges_[k].from].at, points_[edges_[k].to].at, job.part);
+           });
+}
+
+uint32_t TriangleDicer::middle(uint32_t edge) {
+    const auto [from, to, known, halves, state] = edges_[edge];
+    if (known != kNotUsed) return known;
+    uint32_t made = add_point(midpoint(points_[from].at, points_[to].at));
+    uint32_t first = add_edge(from, made);
+    add_edge(made, to);
+    edges_[edge].middle = made;
+    edges_[edge].halves = first;
+    return made;
+}
+
+// The half of a split edge at one of its ends.
+uint32_t TriangleDicer::half(uint32_t edge, uint32_t at) const {
+    return edges_[edge].halves + (edges_[edge].from != at);
+}
+
+void TriangleDicer::split(const Job& job, const Corners& p, const Edges& e) {
+    if (job.over_limit()) return;
+    std::array<bool, 3> open;
+    int count = 0;
+    for (size_t k = 0; k < 3; ++k) count += open[k] = splits(job, edges_[e[k]]);
+    if (count == 0 || is_part(job, e)) return emit(job, p);
+    // Turned so that edge 0 is the only one split, or edge 2 the only one that stays.
+    size_t first = 0;
+    if (count < 3)
+        while (count == 1 ? !open[first] : open[(first + 2) % 3]) ++first;
+    auto turned = [first](size_t k) { return (first + k) % 3; };
+    const uint32_t p0 = p[turned(0)], p1 = p[turned(1)], p2 = p[turned(2)];
+    const uint32_t e0 = e[turned(0)], e1 = e[turned(1)], e2 = e[turned(2)];
+    const uint32_t m = middle(e0);
+    if (count == 1) {
+        uint32_t across = add_edge(m, p2);
+        split(job, {p0, m, p2}, {half(e0, p0), across, e2});
+        split(job, {m, p1, p2}, {half(e0, p1), e1, across});
+        return;
+    }
+    const uint32_t n = middle(e1), across = add_edge(m, n);
+    if (count == 3) {
+        const uint32_t o = middle(e2), no = add_edge(n, o), om = add_edge(o, m);
+        split(job, {p0, m, o}, {half(e0, p0), om, half(e2, p0)});
+        split(job, {m, p1, n}, {half(e0, p1), half(e1, p1), across});
+        split(job, {o, n, p2}, {no, half(e1, p2), half(e2, p2)});
+        split(job, {m, n, o}, {across, no, om});
+        return;
+    }
+    // A corner triangle and a quadrilateral, cut along its shorter diagonal.
+    split(job, {m, p1, n}, {half(e0, p1), half(e1, p1), across});
+    if (job.square(points_[p0].at, points_[n].at) <= job.square(points_[m].at, points_[p2].at)) {
+        uint32_t diagonal = add_edge(p0, n);
+        split(job, {p0, m, n}, {half(e0, p0), across, diagonal});
+        split(job, {p0, n, p2}, {diagonal, half(e1, p2), e2});
+    } else {
+        uint32_t diagonal = add_edge(m, p2);
+        split(job, {p0, m, p2}, {half(e0, p0), diagonal, e2});
+        split(job, {m, n, p2}, {across, half(e1, p2), diagonal});
+    }
+}
+
+void TriangleDicer::emit(const Job& job, const Corners& p) {
+    for (uint32_t k : p) {
+        Point& point = points_[k];
+        if (point.number == kNotUsed) {
+            point.number = uint32_t(job.out.points.size());
+            job.out.points.push_back(point.at);
+        }
+        job.out.triangles.push_back(point.number);
+    }
+}
+
 bool dice_triangle(const DiceMetric& metric, FunctionRef<bool(DicePoint, DicePoint)> too_long,
                    size_t limit, DicedTriangle& out) {
-    out.points.clear();
-    out.triangles.clear();
-    return Splitter(metric, too_long, limit, out).run();
+    TriangleDicer dicer;
+    auto longer = [&](DicePoint a, DicePoint b, double) { return too_long(a, b); };
+    return dicer.dice(metric, longer, kWholeTriangle, limit, out);
 }
 
 double edge_pixels(const raytrace::Camera& camera, dvec3 a, dvec3 b) {

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <bit>
+#include <deque>
 #include <glm/geometric.hpp>
 
+#include "runtime/base/memory/pages.h"
+#include "runtime/base/parallel.h"
 #include "runtime/description/pair_numbers.h"
 
 namespace kinora {
@@ -79,16 +80,47 @@ VertexAttribute barycentric_texcoord(size_t corners) {
     return a;
 }
 
-// One group of the base mesh to its diced one.
+constexpr size_t kDicedGrain = 16384;
+
+void put_position(const Mesh& base, uint32_t number, const Stencil& from, DicedMesh& out) {
+    if (!out.position_stencils.empty()) out.position_stencils[number] = from;
+    out.mesh.positions[number] = vec4(vec3(combine(from, base.positions)), 0.0f);
+}
+
+// How many wedges, positions and normals there are.
+struct Counts {
+    uint32_t wedges = 0, positions = 0, normals = 0;
+};
+
+// Numbers of a point at the rim of a part. Of those it shares with an earlier part only the wedge.
+struct RimNumbers {
+    uint32_t point, wedge, position, normal;
+};
+
+// Where a part's points and corners are in the mesh. Its points take the next wedge, position and
+// normal each, but for what the rim says.
+struct PartNumbers {
+    Counts first;
+    size_t first_corner = 0;
+    std::vector<RimNumbers> rim;
+};
+
+constexpr std::array<uint32_t, 3> kItself = {0, 1, 2};
+
+// The part with its lists, also where it is a triangle itself.
+DicedPart complete(DicedPart part) {
+    if (part.points.empty())
+        part.points = kWholeTriangle, part.triangles = kItself, part.rim = kItself;
+    return part;
+}
+
+// One group of the base mesh to its diced one: first the numbers of what parts share, one part
+// after another, then all vertices at once.
 class GroupDicer {
   public:
-    GroupDicer(const Mesh& base, const MeshGroup& from, bool moved, EdgePoints& edge_positions,
-               DicedMesh& out)
-        : base_(base),
-          from_(from),
-          of_faces_(moved && from.flat()),
-          edge_positions_(edge_positions),
-          out_(out) {
+    GroupDicer(const Mesh& base, const MeshGroup& from, bool moved,
+               const std::vector<DicedPart>& parts)
+        : base_(base), from_(from), parts_(parts), of_faces_(moved && from.flat()) {
         group_.flat = from.flat();
         to_ = std::make_unique<PrimitiveGroup>();
         to_->symbol = from.symbol;
@@ -99,180 +131,228 @@ class GroupDicer {
             barycentrics_ = barycentric_texcoord(from.triangles.size());
             sources_.push_back(&barycentrics_);
         }
-        if (barycentric || of_faces_) {  // every triangle has wedges of its own
-            for (uint32_t c = 0; c < from.triangles.size(); ++c) base_wedges_.push_back(c);
-        } else {
-            base_wedges_ = number_wedges(from);
-        }
+        own_wedges_ = barycentric || of_faces_;
+        if (!own_wedges_) base_wedges_ = number_wedges(from);
         for (const VertexAttribute* a : sources_) {
             VertexAttribute& made = to_->attributes.emplace_back();
             made.semantic = a->semantic;
             made.set = a->set;
             made.stride = a->stride;
         }
-        normal_of_.assign(base.normals.size(), kNone);
-        wedge_of_.assign(from.triangles.size(), kNone);
     }
 
-    void triangle(size_t t, const DicedTriangle& diced) {
-        static const DicedTriangle kItself = {{{0, 0}, {kDiceOne, 0}, {0, kDiceOne}}, {0, 1, 2}};
-        const DicedTriangle& d = diced.triangles.empty() ? kItself : diced;
-        for (size_t k = 0; k < 3; ++k) {
-            corner_[k] = 3 * t + k;
-            positions_[k] = from_.triangles[corner_[k]];
-            if (!from_.flat()) normals_[k] = from_.normal_corners[corner_[k]];
-            wedges_[k] = base_wedges_[corner_[k]];
+    // Numbers of positions and normals go on from `next`, which is then what follows them.
+    void number(EdgePoints& edge_positions, Counts& next) {
+        Shared shared(edge_positions);
+        shared.normal_of.assign(base_.normals.size(), kNone);
+        shared.wedge_of.assign(from_.triangles.size(), kNone);
+        next.wedges = 0;
+        uint32_t triangle = kNone;
+        for (const DicedPart& any : parts_) {
+            const DicedPart part = complete(any);
+            if (part.triangle != triangle) shared.inside = PairNumbers();
+            triangle = part.triangle;
+            numbers_.push_back({next, corners_, {}});
+            number_part(part, shared, numbers_.back(), next);
+            corners_ += part.triangles.size();
         }
-        if (of_faces_) face_ = face_normal();
-        numbers_.clear();
-        for (DicePoint p : d.points) numbers_.push_back(wedge(p));
-        for (uint32_t p : d.triangles) group_.corners.push_back(numbers_[p]);
+        wedges_ = next.wedges;
     }
 
-    void finish() {
-        MeshGroup& made = out_.mesh.groups.emplace_back();
+    void fill(DicedMesh& out) {
+        resize_pages(group_.corners, corners_);
+        resize_pages(group_.position, wedges_);
+        if (has_normals()) resize_pages(group_.normal, wedges_);
+        for (VertexAttribute& a : to_->attributes)
+            resize_pages(a.values, size_t(wedges_) * a.stride);
+        const size_t grain = 1 + kDicedGrain * parts_.size() / (1 + corners_);
+        parallel_for(0, parts_.size(), grain, [&](size_t begin, size_t end) {
+            std::vector<uint32_t> wedge_of_point;
+            for (size_t k = begin; k < end; ++k) fill_part(k, wedge_of_point, out);
+        });
+    }
+
+    void finish(DicedMesh& out) {
+        MeshGroup& made = out.mesh.groups.emplace_back();
         made.symbol = from_.symbol;
         made.definition = to_.get();
-        made.triangles.reserve(group_.corners.size());
-        made.normal_corners.reserve(group_.corners.size());
-        for (uint32_t w : group_.corners) {
-            made.triangles.push_back(group_.position[w]);
-            if (!group_.normal.empty()) made.normal_corners.push_back(group_.normal[w]);
+        resize_pages(made.triangles, corners_);
+        if (has_normals()) resize_pages(made.normal_corners, corners_);
+        parallel_for(0, corners_, kDicedGrain, [&](size_t begin, size_t end) {
+            for (size_t c = begin; c < end; ++c) {
+                const uint32_t wedge = group_.corners[c];
+                made.triangles[c] = group_.position[wedge];
+                if (has_normals()) made.normal_corners[c] = group_.normal[wedge];
+            }
+        });
+        for (VertexAttribute& a : to_->attributes) {
+            reserve_pages(a.corners, corners_);
+            a.corners = group_.corners;
         }
-        for (VertexAttribute& a : to_->attributes) a.corners = group_.corners;
-        out_.mesh.own_groups.push_back(std::move(to_));
-        out_.groups.push_back(std::move(group_));
+        out.mesh.own_groups.push_back(std::move(to_));
+        out.groups.push_back(std::move(group_));
     }
 
   private:
-    uint32_t wedge(DicePoint p) {
-        uint32_t next = uint32_t(group_.position.size());
-        int zeros = zero_weights(p);
-        if (zeros == 2) {
-            uint32_t& known = wedge_of_[wedges_[size_t(corner_of(p))]];
-            if (known != kNone) return known;
-            known = next;
-        } else if (zeros == 1) {
-            uint32_t known = edge_wedges_.number(wedges_, p, next);
-            if (known != next) return known;
+    // Numbers of what parts share.
+    struct Shared {
+        explicit Shared(EdgePoints& edges) : edge_positions(edges) {}
+        EdgePoints& edge_positions;
+        EdgePoints edge_normals, edge_wedges;
+        std::vector<uint32_t> normal_of, wedge_of;  // new entry of each old one
+        PairNumbers inside;                         // wedges inside the triangle under work
+    };
+
+    // A triangle's entries in the base mesh.
+    struct Base {
+        std::array<size_t, 3> corner;
+        Corners positions{}, normals{}, wedges{};
+    };
+
+    bool has_normals() const { return of_faces_ || !from_.flat(); }
+
+    Base base_of(size_t triangle) const {
+        Base base;
+        for (size_t k = 0; k < 3; ++k) {
+            const size_t c = base.corner[k] = 3 * triangle + k;
+            base.positions[k] = from_.triangles[c];
+            if (!from_.flat()) base.normals[k] = from_.normal_corners[c];
+            base.wedges[k] = own_wedges_ ? uint32_t(c) : base_wedges_[c];
         }
-        uint32_t at = position(p, zeros);
-        group_.position.push_back(at);
-        if (of_faces_ || !from_.flat()) group_.normal.push_back(normal(p, zeros, at));
+        return base;
+    }
+
+    void number_part(const DicedPart& part, Shared& shared, PartNumbers& numbers,
+                     Counts& next) const {
+        const Base base = base_of(part.triangle);
+        uint32_t seen = 0;
+        auto skip_to = [&](uint32_t point) {
+            next.wedges += point - seen;
+            next.positions += point - seen;
+            if (has_normals()) next.normals += point - seen;
+            seen = point;
+        };
+        for (uint32_t r : part.rim) {
+            skip_to(r);
+            numbers.rim.push_back(rim_point(r, part.points[r], base, shared, next));
+            ++seen;
+        }
+        skip_to(uint32_t(part.points.size()));
+    }
+
+    RimNumbers rim_point(uint32_t r, DicePoint p, const Base& base, Shared& shared,
+                         Counts& next) const {
+        const int zeros = zero_weights(p);
+        const size_t corner = size_t(corner_of(p));
+        auto first_seen = [](uint32_t& known, uint32_t number) {
+            return known == kNone ? known = number : known;
+        };
+        RimNumbers n{r, next.wedges, next.positions, next.normals};
+        if (zeros == 2)
+            n.wedge = first_seen(shared.wedge_of[base.wedges[corner]], n.wedge);
+        else if (zeros == 1)
+            n.wedge = shared.edge_wedges.number(base.wedges, p, n.wedge);
+        else
+            n.wedge = shared.inside.number(p.i, p.j, n.wedge);
+        if (n.wedge != next.wedges) return n;
+        ++next.wedges;
+        if (zeros == 2)
+            n.position = base.positions[corner];
+        else if (zeros == 1)
+            n.position = shared.edge_positions.number(base.positions, p, n.position);
+        next.positions += n.position == next.positions;
+        if (!has_normals()) return n;
+        if (!of_faces_ && zeros == 2)
+            n.normal = first_seen(shared.normal_of[base.normals[corner]], n.normal);
+        else if (!of_faces_ && zeros == 1)
+            n.normal = shared.edge_normals.number(base.normals, p, n.normal);
+        next.normals += n.normal == next.normals;
+        return n;
+    }
+
+    void fill_part(size_t k, std::vector<uint32_t>& wedge_of_point, DicedMesh& out) {
+        const DicedPart part = complete(parts_[k]);
+        const PartNumbers& numbers = numbers_[k];
+        const Base base = base_of(part.triangle);
+        const vec4 face = of_faces_ ? face_normal(base) : vec4(0.0f);
+        wedge_of_point.clear();
+        Counts next = numbers.first;
+        auto rim = numbers.rim.begin();
+        for (uint32_t i = 0; i < part.points.size(); ++i) {
+            RimNumbers n{i, next.wedges, next.positions, next.normals};
+            if (rim != numbers.rim.end() && rim->point == i) n = *rim++;
+            wedge_of_point.push_back(n.wedge);
+            if (n.wedge != next.wedges) continue;
+            const DicePoint p = part.points[i];
+            ++next.wedges;
+            group_.position[n.wedge] = n.position;
+            fill_attributes(n.wedge, p, base);
+            if (n.position == next.positions) {
+                put_position(base_, n.position, stencil(base.positions, p), out);
+                ++next.positions;
+            }
+            if (!has_normals()) continue;
+            group_.normal[n.wedge] = n.normal;
+            if (n.normal != next.normals) continue;
+            fill_normal(n, p, base, face, out);
+            ++next.normals;
+        }
+        for (size_t c = 0; c < part.triangles.size(); ++c)
+            group_.corners[numbers.first_corner + c] = wedge_of_point[part.triangles[c]];
+    }
+
+    void fill_attributes(size_t wedge, DicePoint p, const Base& base) {
         for (size_t a = 0; a < sources_.size(); ++a) {
             const VertexAttribute& from = *sources_[a];
+            float* to = &to_->attributes[a].values[wedge * from.stride];
             for (uint32_t c = 0; c < from.stride; ++c) {
                 double sum = 0;
                 for (int k = 0; k < 3; ++k)
-                    sum += double(p.weight(k)) / kDiceOne *
-                           from.values[size_t(from.corners[corner_[size_t(k)]]) * from.stride + c];
-                to_->attributes[a].values.push_back(float(sum));
+                    sum +=
+                        double(p.weight(k)) / kDiceOne *
+                        from.values[size_t(from.corners[base.corner[size_t(k)]]) * from.stride + c];
+                to[c] = float(sum);
             }
         }
-        return next;
     }
 
-    uint32_t position(DicePoint p, int zeros) {
-        if (zeros == 2) return positions_[size_t(corner_of(p))];
-        uint32_t next = uint32_t(out_.position_stencils.size());
-        if (zeros == 1) {
-            uint32_t known = edge_positions_.number(positions_, p, next);
-            if (known != next) return known;
-        }
-        out_.position_stencils.push_back(stencil(positions_, p));
-        return next;
-    }
-
-    vec4 face_normal() const {
-        dvec3 a(base_.positions[positions_[0]]);
-        dvec3 n = glm::cross(dvec3(base_.positions[positions_[1]]) - a,
-                             dvec3(base_.positions[positions_[2]]) - a);
+    vec4 face_normal(const Base& base) const {
+        dvec3 a(base_.positions[base.positions[0]]);
+        dvec3 n = glm::cross(dvec3(base_.positions[base.positions[1]]) - a,
+                             dvec3(base_.positions[base.positions[2]]) - a);
         double length = glm::length(n);
         return vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f);
     }
 
-    uint32_t add_normal(const Stencil& from, vec4 value, uint32_t at) {
-        out_.normal_stencils.push_back(from);
-        out_.mesh.normal_positions.push_back(at);
-        out_.mesh.normals.push_back(value);
-        return uint32_t(out_.mesh.normals.size() - 1);
-    }
-
-    uint32_t normal(DicePoint p, int zeros, uint32_t at) {
-        if (of_faces_) return add_normal({{0, 0, 0}, {0, 0, 0}}, face_, at);
-        uint32_t next = uint32_t(out_.normal_stencils.size());
-        if (zeros == 2) {
-            uint32_t& known = normal_of_[normals_[size_t(corner_of(p))]];
-            if (known != kNone) return known;
-            known = next;
-        } else if (zeros == 1) {
-            uint32_t known = edge_normals_.number(normals_, p, next);
-            if (known != next) return known;
+    void fill_normal(const RimNumbers& n, DicePoint p, const Base& base, vec4 face,
+                     DicedMesh& out) const {
+        out.mesh.normal_positions[n.normal] = n.position;
+        Stencil s = {{0, 0, 0}, {0, 0, 0}};
+        if (!of_faces_) s = stencil(base.normals, p);
+        if (!out.normal_stencils.empty()) out.normal_stencils[n.normal] = s;
+        if (of_faces_) {
+            out.mesh.normals[n.normal] = face;
+            return;
         }
-        Stencil s = stencil(normals_, p);
-        dvec3 n = combine(s, base_.normals);
-        double length = glm::length(n);
-        return add_normal(s, vec4(length > 0 ? vec3(n / length) : vec3(0.0f), 0.0f), at);
+        const dvec3 sum = combine(s, base_.normals);
+        const double length = glm::length(sum);
+        out.mesh.normals[n.normal] = vec4(length > 0 ? vec3(sum / length) : vec3(0.0f), 0.0f);
     }
 
     const Mesh& base_;
     const MeshGroup& from_;
-    bool of_faces_;  // its normals are those of its triangles
-    EdgePoints& edge_positions_;
-    DicedMesh& out_;
+    const std::vector<DicedPart>& parts_;
+    bool of_faces_;    // its normals are those of its triangles
+    bool own_wedges_;  // every corner of the base mesh is a wedge
     std::unique_ptr<PrimitiveGroup> to_;
     DicedGroup group_;
     VertexAttribute barycentrics_;
     std::vector<const VertexAttribute*> sources_;
-    std::vector<uint32_t> base_wedges_;           // of each corner
-    std::vector<uint32_t> normal_of_, wedge_of_;  // new entry of each old one
-    EdgePoints edge_normals_, edge_wedges_;
-    std::array<size_t, 3> corner_{};  // the triangle under work
-    Corners positions_{}, normals_{}, wedges_{};
-    vec4 face_{0.0f};
-    std::vector<uint32_t> numbers_;
+    std::vector<uint32_t> base_wedges_;  // of each corner
+    std::vector<PartNumbers> numbers_;   // by part
+    uint32_t wedges_ = 0;
+    size_t corners_ = 0;
 };
-
-// The edges of marked groups, between welded positions.
-class MarkedEdges {
-  public:
-    MarkedEdges(const Mesh& base, std::span<const uint8_t> diced) : welded_(weld(base.positions)) {
-        for (size_t g = 0; g < base.groups.size(); ++g) {
-            if (!diced[g]) continue;
-            const std::vector<uint32_t>& t = base.groups[g].triangles;
-            for (size_t c = 0; c < t.size(); ++c) {
-                auto [a, b] = ends(t[c], t[c - c % 3 + (c + 1) % 3]);
-                edges_.number(a, b, 0);
-            }
-        }
-    }
-    bool contains(uint32_t p, uint32_t q) const {
-        auto [a, b] = ends(p, q);
-        return edges_.contains(a, b);
-    }
-
-  private:
-    std::pair<uint32_t, uint32_t> ends(uint32_t p, uint32_t q) const {
-        return std::minmax({welded_[p], welded_[q]});
-    }
-    std::vector<uint32_t> welded_;
-    PairNumbers edges_;
-};
-
-DiceMetric metric_of(const Mesh& base, const uint32_t corners[3]) {
-    dvec3 p0(base.positions[corners[0]]);
-    dvec3 e1 = dvec3(base.positions[corners[1]]) - p0, e2 = dvec3(base.positions[corners[2]]) - p0;
-    return {glm::dot(e1, e1), glm::dot(e1, e2), glm::dot(e2, e2)};
-}
-
-// Of a group that is not diced: only what lies on marked edges of the triangle is split.
-bool on_marked_edge(const MarkedEdges& marked, const uint32_t corners[3], DicePoint a,
-                    DicePoint b) {
-    for (int k = 0; k < 3; ++k)
-        if (a.weight(k) == 0 && b.weight(k) == 0)
-            return marked.contains(corners[(k + 1) % 3], corners[(k + 2) % 3]);
-    return false;
-}
 
 }  // namespace
 
@@ -288,64 +368,34 @@ size_t DicedMesh::triangles() const {
     return count;
 }
 
-std::vector<uint32_t> weld(std::span<const vec4> positions) {
-    PairNumbers planes(positions.size()), points(positions.size());
-    std::vector<uint32_t> result(positions.size());
-    uint32_t plane_count = 0;
-    auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); };  // -0 is 0
-    for (uint32_t p = 0; p < positions.size(); ++p) {
-        const vec4& at = positions[p];
-        uint32_t plane = planes.number(bits(at.x), bits(at.y), plane_count);
-        plane_count += plane == plane_count;
-        result[p] = points.number(plane, bits(at.z), p);
-    }
-    return result;
-}
-
-std::optional<DicedMesh> dice_mesh(const Mesh& base, std::span<const uint8_t> diced,
-                                   std::span<const uint8_t> moved, DiceTest too_long,
-                                   size_t limit) {
-    MarkedEdges marked(base, diced);
-    std::atomic<size_t> total{0};
-    std::vector<std::vector<DicedTriangle>> pieces(base.groups.size());
-    for (size_t g = 0; g < base.groups.size(); ++g) {
-        const std::vector<uint32_t>& triangles = base.groups[g].triangles;
-        pieces[g].resize(triangles.size() / 3);
-        parallel_for(0, pieces[g].size(), 16, [&](size_t begin, size_t end) {
-            for (size_t t = begin; t < end; ++t) {
-                if (total.load(std::memory_order_relaxed) > limit) return;
-                const uint32_t* corners = &triangles[3 * t];
-                auto test = [&](DicePoint a, DicePoint b) {
-                    return (diced[g] || on_marked_edge(marked, corners, a, b)) &&
-                           too_long(corners, a, b);
-                };
-                DicedTriangle& piece = pieces[g][t];
-                bool fits = dice_triangle(metric_of(base, corners), test, limit, piece);
-                total += fits ? piece.triangles.size() / 3 : limit + 1;
-                if (piece.triangles.size() == 3) piece = {};  // itself
-            }
-        });
-    }
-    if (total > limit) return std::nullopt;
-    std::optional<DicedMesh> result(std::in_place);
-    DicedMesh& out = *result;
+DicedMesh diced_mesh(const Mesh& base, std::span<const uint8_t> moved, const DicedParts& parts,
+                     bool stencils) {
+    DicedMesh out;
     out.mesh.anchor = base.anchor;
     out.mesh.low = base.low;
     out.mesh.high = base.high;
     out.mesh.double_sided = base.double_sided;
     out.mesh.definition = base.definition;
-    for (uint32_t p = 0; p < base.positions.size(); ++p)
-        out.position_stencils.push_back({{p, p, p}, {1, 0, 0}});
     EdgePoints edge_positions;
+    Counts counts;
+    counts.positions = uint32_t(base.positions.size());
+    std::deque<GroupDicer> dicers;  // which stay where they are
     for (size_t g = 0; g < base.groups.size(); ++g) {
-        GroupDicer dicer(base, base.groups[g], moved[g], edge_positions, out);
-        for (size_t t = 0; t < pieces[g].size(); ++t) dicer.triangle(t, pieces[g][t]);
-        pieces[g] = {};
-        dicer.finish();
+        dicers.emplace_back(base, base.groups[g], moved[g], parts.groups[g]);
+        dicers.back().number(edge_positions, counts);
     }
-    for (const Stencil& s : out.position_stencils)
-        out.mesh.positions.push_back(vec4(vec3(combine(s, base.positions)), 0.0f));
-    return result;
+    if (stencils) {
+        resize_pages(out.position_stencils, counts.positions);
+        resize_pages(out.normal_stencils, counts.normals);
+    }
+    resize_pages(out.mesh.positions, counts.positions);
+    resize_pages(out.mesh.normals, counts.normals);
+    resize_pages(out.mesh.normal_positions, counts.normals);
+    for (uint32_t p = 0; p < base.positions.size(); ++p)
+        put_position(base, p, {{p, p, p}, {1, 0, 0}}, out);
+    for (GroupDicer& dicer : dicers) dicer.fill(out);
+    for (GroupDicer& dicer : dicers) dicer.finish(out);
+    return out;
 }
 
 }  // namespace kinora

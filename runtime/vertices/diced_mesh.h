@@ -5,9 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "runtime/base/parallel.h"
 #include "runtime/scene/scene.h"
-#include "runtime/vertices/dice.h"
+#include "runtime/vertices/dice_parts.h"
 
 namespace kinora {
 
@@ -31,26 +30,18 @@ struct DicedGroup {
 struct DicedMesh {
     Mesh mesh;  // undisplaced; every normal entry belongs to one group and one position
     std::vector<DicedGroup> groups;
-    std::vector<Stencil> position_stencils;  // positions of the base mesh
-    std::vector<Stencil> normal_stencils;    // normals of the base mesh; no weight in flat groups
+    // Of positions and normals of the base mesh, the latter without weight in flat groups; or none.
+    std::vector<Stencil> position_stencils, normal_stencils;
     size_t triangles() const;
 };
 
-// Whether the edge between two points of a triangle must be split; `corners` are positions of the
-// base mesh. Must depend on the two positions alone. Called by several threads.
-using DiceTest = FunctionRef<bool(const uint32_t corners[3], DicePoint a, DicePoint b)>;
-
-// Splits the triangles of the groups that are marked in `diced`, and those of the others along the
-// edges they share with them. Flat groups that are marked in `moved` get normals, for kernels to
-// bend. `base` comes from build_mesh(definition, true). Attributes other than normals are
-// interpolated linearly; a group without texture coordinates gets the barycentrics of its old
-// triangles as TEXCOORD, so that s and t stay what they were. Nothing when there would be more than
-// `limit` triangles.
-std::optional<DicedMesh> dice_mesh(const Mesh& base, std::span<const uint8_t> diced,
-                                   std::span<const uint8_t> moved, DiceTest too_long, size_t limit);
-
-// The lowest index of the entries at the same position, for each.
-std::vector<uint32_t> weld(std::span<const vec4> positions);
+// Makes the mesh of what dice_parts() made of `base`, which comes from build_mesh(definition,
+// true). Flat groups that are marked in `moved` get normals, for kernels to bend. Attributes other
+// than normals are interpolated linearly; a group without texture coordinates gets the barycentrics
+// of its old triangles as TEXCOORD, so that s and t stay what they were. Without `stencils` the
+// result has none: what a skin or morph moves wants them.
+DicedMesh diced_mesh(const Mesh& base, std::span<const uint8_t> moved, const DicedParts& parts,
+                     bool stencils);
 
 // Influences of a skin (as skin::InfluenceSource has them) and morph targets for the new vertices:
 // linear between those of the old ones.

@@ -1,5 +1,6 @@
 // runtime/vertices/vertex_columns.cpp: kernel inputs at the wedges of a mesh.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -114,9 +115,15 @@ class Wedges : public PointSource {
         float square = glm::dot(n, n);
         return square > 0 ? n / std::sqrt(square) : geometric_normal(w, vec3(0));
     }
+    // The same; neighbors want the normals of the same wedges.
+    vec3 known_normal(uint32_t w) {
+        KnownNormal& known = known_[w % known_.size()];
+        if (known.wedge != w) known = {w, normal(w)};
+        return known.normal;
+    }
     vec3 geometric_normal(size_t w, vec3 otherwise) const {
         vec3 sum(0.0f);
-        for (uint32_t corner : source_.corners.of(w)) sum += vec3(source_.faces[corner / 3]);
+        for (uint32_t corner : source_.corners.of(w)) sum += source_.faces[corner / 3];
         sum = space_.normals * sum;
         float square = glm::dot(sum, sum);
         return square > 0 ? sum / std::sqrt(square) : otherwise;
@@ -165,7 +172,7 @@ class Wedges : public PointSource {
                     dPdv += map.along_v(e1, e2);
                 }
                 if (normals) {
-                    vec3 n0 = normal(a), d1 = normal(b) - n0, d2 = normal(c) - n0;
+                    vec3 n0 = known_normal(a), d1 = known_normal(b) - n0, d2 = known_normal(c) - n0;
                     dNdu += map.along_u(d1, d2);
                     dNdv += map.along_v(d1, d2);
                 }
@@ -231,6 +238,11 @@ class Wedges : public PointSource {
     size_t begin_, count_;
     Arena& arena_;
     std::span<float*> columns_;
+    struct KnownNormal {
+        uint32_t wedge = kNone;
+        vec3 normal{0.0f};
+    };
+    std::array<KnownNormal, 256> known_;
 };
 
 }  // namespace

@@ -36,7 +36,8 @@ struct VertexSpace {
 struct VertexSource {
     const DicedGroup& group;
     const struct Lists& corners;  // of each wedge
-    std::span<const vec4> positions, normals, faces;
+    std::span<const vec4> positions, normals;
+    std::span<const vec3> faces;
     const VertexAttribute* st;
     std::span<const VertexAttribute* const> varying;
     std::span<const uint32_t> welds;  // of each position: seeds random()

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "rsl/model/kernel_keys.h"
+#include "runtime/base/memory/pages.h"
 #include "runtime/base/parallel.h"
 #include "runtime/description/findings.h"
 #include "runtime/shading/scene_host.h"
@@ -24,12 +25,15 @@ constexpr size_t kGrain = 4096;
 // Lists from the key of each item.
 Lists make_lists(std::span<const uint32_t> key_of_item, size_t keys) {
     Lists lists;
-    lists.first.assign(keys + 1, 0);
+    resize_pages(lists.first, keys + 1);
     for (uint32_t key : key_of_item) ++lists.first[key + 1];
     for (size_t k = 0; k < keys; ++k) lists.first[k + 1] += lists.first[k];
-    lists.items.resize(key_of_item.size());
-    std::vector<uint32_t> next(lists.first.begin(), lists.first.end() - 1);
-    for (uint32_t i = 0; i < key_of_item.size(); ++i) lists.items[next[key_of_item[i]]++] = i;
+    resize_pages(lists.items, key_of_item.size());
+    // first[k] serves as the place of the next, and is first[k + 1] then.
+    for (uint32_t i = 0; i < key_of_item.size(); ++i)
+        lists.items[lists.first[key_of_item[i]]++] = i;
+    std::shift_right(lists.first.begin(), lists.first.end(), 1);
+    lists.first[0] = 0;
     return lists;
 }
 
@@ -113,14 +117,14 @@ VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::ve
                 group.faults[s].resize(look->full.kernel().fault_sites.size() + 1);
         wedge_count_ += group.made.position.size();
         triangles += group.made.corners.size() / 3;
-        group_of_wedge_.resize(wedge_count_, uint32_t(g));
+        resize_pages(group_of_wedge_, wedge_count_, uint32_t(g));
     }
     weld_positions(mesh);
     weld_normals(mesh);
-    moved_.resize(wedge_count_);
-    bent_.resize(wedge_count_);
-    faces_.resize(triangles);
-    before_.resize(mesh.normals.size());
+    resize_pages(moved_, wedge_count_);
+    resize_pages(bent_, wedge_count_);
+    resize_pages(faces_, triangles);
+    resize_pages(before_, mesh.normals.size());
     size_t parts = 0;
     for (const Group& group : groups_)
         parts = std::max(parts, group.made.position.size() / kPart + 1);
@@ -131,6 +135,7 @@ VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::ve
 void VertexWork::weld_positions(const Mesh& mesh) {
     weld_of_position_ = weld(mesh.positions);
     std::vector<uint32_t> weld_of_wedge;
+    reserve_pages(weld_of_wedge, wedge_count_);
     for (const Group& group : groups_)
         for (uint32_t p : group.made.position) weld_of_wedge.push_back(weld_of_position_[p]);
     welds_ = make_lists(weld_of_wedge, mesh.positions.size());
@@ -139,7 +144,7 @@ void VertexWork::weld_positions(const Mesh& mesh) {
 // Wedges at one position whose groups have the same shaders and whose normals are equal but for
 // rounding. The key is the lowest normal entry among them.
 void VertexWork::weld_normals(const Mesh& mesh) {
-    key_of_normal_.resize(mesh.normals.size());
+    resize_pages(key_of_normal_, mesh.normals.size());
     for (uint32_t n = 0; n < key_of_normal_.size(); ++n) key_of_normal_[n] = n;
     auto normal_of = [&](uint32_t wedge) {
         const Group& group = groups_[group_of_wedge_[wedge]];
@@ -168,7 +173,8 @@ void VertexWork::weld_normals(const Mesh& mesh) {
         }
     }
     const uint32_t none = uint32_t(mesh.normals.size());
-    std::vector<uint32_t> key_of_wedge(wedge_count_, none);
+    std::vector<uint32_t> key_of_wedge;
+    resize_pages(key_of_wedge, wedge_count_, none);
     for (const Group& group : groups_)
         for (size_t w = 0; w < group.made.normal.size(); ++w)
             key_of_wedge[group.first_wedge + w] = key_of_normal_[group.made.normal[w]];
@@ -210,7 +216,7 @@ void VertexWork::find_faces(const Pass& pass) {
                 vec3 p0(positions[p[c[3 * t]]]);
                 vec3 e1 = vec3(positions[p[c[3 * t + 1]]]) - p0;
                 vec3 e2 = vec3(positions[p[c[3 * t + 2]]]) - p0;
-                faces_[group.first_triangle + t] = vec4(pass.winding * glm::cross(e1, e2), 0.0f);
+                faces_[group.first_triangle + t] = pass.winding * glm::cross(e1, e2);
             }
         });
     }
@@ -221,7 +227,7 @@ vec3 VertexWork::face_sum(std::span<const uint32_t> wedges) const {
     for (uint32_t w : wedges) {
         const Group& group = groups_[group_of_wedge_[w]];
         for (uint32_t corner : group.corners.of(w - group.first_wedge))
-            sum += vec3(faces_[group.first_triangle + corner / 3]);
+            sum += faces_[group.first_triangle + corner / 3];
     }
     return sum;
 }
@@ -230,7 +236,7 @@ void VertexWork::run_group(Pass& pass, Group& group) {
     size_t count = group.made.position.size();
     ShaderInstance* look = group.use.looks[pass.stage];
     if (!look) {
-        std::fill_n(moved_.begin() + group.first_wedge, count, vec4(0.0f));
+        std::fill_n(moved_.begin() + group.first_wedge, count, vec3(0.0f));
         return;
     }
     look->update_for_vertices({pass.scene, pass.space.eye_object}, pass.node);
@@ -296,9 +302,8 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
         vec3 moved = P.at(out, i) - before, bent = N.at(out, i);
         bad += !is_finite(moved) || !is_finite(bent);
         size_t w = group.first_wedge + begin + i;
-        moved_[w] = vec4(is_finite(moved) ? pass.space.mesh_linear * moved : vec3(0), 0.0f);
-        bent_[w] = vec4(
-            is_finite(bent) ? unit_or(pass.space.mesh_normals * bent, vec3(0)) : vec3(0), 0.0f);
+        moved_[w] = is_finite(moved) ? pass.space.mesh_linear * moved : vec3(0);
+        bent_[w] = is_finite(bent) ? unit_or(pass.space.mesh_normals * bent, vec3(0)) : vec3(0);
     }
     not_finite_[begin / kPart] = bad;
     if (group.use.attributes) store_outputs(kernel, out, begin, count, *group.use.attributes);
@@ -310,7 +315,7 @@ void VertexWork::move_positions(const Pass& pass) {
             std::span<const uint32_t> wedges = welds_.of(weld_of_position_[p]);
             if (wedges.empty()) continue;
             vec3 sum(0.0f);
-            for (uint32_t w : wedges) sum += vec3(moved_[w]);
+            for (uint32_t w : wedges) sum += moved_[w];
             pass.positions[p] += vec4(sum / float(wedges.size()), 0.0f);
         }
     });
@@ -327,7 +332,7 @@ void VertexWork::turn_normals(const Pass& pass) {
             const ShaderInstance* look = group.use.looks[pass.stage];
             if (look && look->lowered.bends_N) {
                 vec3 sum(0.0f);
-                for (uint32_t w : wedges) sum += vec3(bent_[w]);
+                for (uint32_t w : wedges) sum += bent_[w];
                 normal = unit_or(sum, normal);
             } else {
                 vec3 after = face_sum(wedges);

@@ -90,8 +90,8 @@ class VertexWork {
     Lists welds_;                             // wedges at one position
     std::vector<uint32_t> key_of_normal_;     // key of same_normal_
     Lists same_normal_;                       // wedges that share a position and a normal; none
-    std::vector<vec4> moved_, bent_;          // by wedge, in mesh space
-    std::vector<vec4> faces_;                 // by triangle: normal times twice the area
+    std::vector<vec3> moved_, bent_;          // by wedge, in mesh space
+    std::vector<vec3> faces_;                 // by triangle: normal times twice the area
     std::vector<vec3> before_;                // by normal that is a key: sum of faces
     std::vector<Arena> arenas_;               // by thread
     std::vector<PrintedLines> prints_;        // by part

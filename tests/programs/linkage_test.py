@@ -11,7 +11,7 @@ import layering_test  # noqa: E402
 
 PROGRAMS = [BIN / f"kinora-{name}" for name in ("render", "shade", "validate", "convert")]
 ON_DEMAND = re.compile(
-    r"lib(embree|tbb|OpenEXR|Imath|OpenImageIO|png|zip|xml2|capstone|xxhash|icu|crypto)")
+    r"lib(embree|tbb|OpenEXR|Imath|OpenImageIO|png|deflate|zip|xml2|capstone|xxhash|icu|crypto)")
 MODULES = sorted((BIN.parent / "lib").glob("*.so"))
 
 

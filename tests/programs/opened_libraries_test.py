@@ -1,10 +1,13 @@
 """tests/programs/opened_libraries_test.py: libraries that a run opens when it needs them, and what is
 said where one of them is broken: which, what it is for, and the package that brings it."""
+import itertools
 import os
 import re
+import struct
 import subprocess
 import unittest
 import zipfile
+import zlib
 
 from programs import BIN, MATTE, ProgramTest, main, render, run
 
@@ -26,6 +29,27 @@ def installed(pattern):
     names = re.findall(rf"^\s*({pattern}) ", listing.stdout, re.M)
     assert names, (pattern, listing)
     return names
+
+
+def rows_of_zip_exr(data):
+    """The bytes of each 16 rows ("OpenEXR File Layout"): zlib's, whose differences are summed up and
+    whose halves are shuffled together."""
+    at = 8
+    while data[at]:  # attributes: name, type, size, value
+        at = data.index(b"\0", data.index(b"\0", at) + 1) + 1
+        at += 4 + struct.unpack_from("<i", data, at)[0]
+    table = at + 1
+    first, = struct.unpack_from("<Q", data, table)
+    chunks = []
+    for place in struct.unpack_from(f"<{(first - table) // 8}Q", data, table):
+        size, = struct.unpack_from("<i", data, place + 4)
+        differences = zlib.decompress(data[place + 8:place + 8 + size])
+        summed = bytes(itertools.accumulate(differences, lambda a, b: (a + b - 128) % 256))
+        half = (len(summed) + 1) // 2
+        rows = bytearray(len(summed))
+        rows[0::2], rows[1::2] = summed[:half], summed[half:]
+        chunks.append(bytes(rows))
+    return chunks
 
 
 class OpenedLibraries(ProgramTest):
@@ -74,6 +98,16 @@ class OpenedLibraries(ProgramTest):
                 self.assertIn("[FRAME_UNWRITABLE]", result.err)
                 self.assertEqual(list(self.folder.glob(f"*{suffix}*")), [])
                 self.expect(render(MATTE, "-o", "null", *SMALL, env=broken), 0)
+
+    def test_compression(self):
+        """libdeflate is there to be fast: without it, OpenEXR's zlib makes the same picture."""
+        files = [self.folder / "deflate.exr", self.folder / "zlib.exr"]
+        for file, env in zip(files, (None, self.without(r"libdeflate\.so\.\d+"))):
+            self.expect(render(MATTE, "-o", file, "--size", "67x53", "--spp", "1", env=env), 0)
+        chunks = [rows_of_zip_exr(file.read_bytes()) for file in files]
+        self.assertEqual(chunks[0], chunks[1])
+        self.assertEqual([len(rows) for rows in chunks[0]], [67 * 8 * n for n in (16, 16, 16, 5)])
+        self.assertNotEqual(*(file.read_bytes() for file in files))
 
     def test_archives(self):
         archive = self.folder / "a.zae"

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "runtime/base/memory/pages.h"
 #include "runtime/build/displacement/diced_attributes.h"
 #include "runtime/build/shapes/shapes.h"
 #include "runtime/build/shapes/skins.h"
@@ -99,8 +100,11 @@ void put_on_shapes(Scene& scene, const DisplacedMesh& from, DicedMesh& made, con
         else if (instanced)
             shape.kind = raytrace::GeometryKind::Instanced;
         bool own = shape.kind != raytrace::GeometryKind::Instanced;
-        shape.positions.assign(own ? scene.meshes[index].positions.size() : 0, vec4(0.0f));
-        shape.normals.assign(own ? scene.meshes[index].normals.size() : 0, vec4(0.0f));
+        shape.positions.clear();
+        shape.normals.clear();
+        if (!own) continue;
+        resize_pages(shape.positions, scene.meshes[index].positions.size());
+        resize_pages(shape.normals, scene.meshes[index].normals.size());
     }
     if (once) return;
     work->each_frame = from.each_frame;

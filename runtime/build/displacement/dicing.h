@@ -24,7 +24,7 @@ class Dicing {
     void run();
 
     // After run():
-    DicedMesh& made(size_t mesh) { return *made_[mesh]; }
+    DicedMesh& made(size_t mesh) { return made_[mesh]; }
     DiceStats stats() const;  // without the time
 
     // Edges of what was diced, by mesh (null: nothing of it was), so that a frame can tell whether
@@ -35,14 +35,15 @@ class Dicing {
     bool stopped() const { return stop_ && *stop_; }
     double coarse_enough(double pixels);
     bool dice_to(double pixels, size_t limit);
-    bool dice_one(size_t mesh, double pixels, size_t limit);
+    std::optional<DicedParts> dice_one(size_t mesh, double pixels, size_t limit) const;
 
     const SceneOptions& options_;
     std::span<const DisplacedMesh> meshes_;
     const DiceViews& views_;
     const std::atomic<bool>* stop_;
-    std::vector<std::optional<DicedMesh>> made_;  // by mesh
-    double pixels_ = 0;                           // edge length used
+    std::vector<DicedParts> parts_;  // by mesh
+    std::vector<DicedMesh> made_;    // by mesh, of the parts
+    double pixels_ = 0;              // edge length used
 };
 
 }  // namespace kinora

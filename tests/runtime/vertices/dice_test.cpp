@@ -1,4 +1,4 @@
-// tests/runtime/dice_test.cpp: triangles split by rules on their edges.
+// tests/runtime/vertices/dice_test.cpp: triangles split by rules on their edges.
 #include "runtime/vertices/dice.h"
 
 #include <gtest/gtest.h>
