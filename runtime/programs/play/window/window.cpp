@@ -20,6 +20,7 @@
 #include "runtime/programs/play/window/batch.h"
 #include "runtime/programs/play/window/input.h"
 #include "runtime/programs/play/window/keys.h"
+#include "runtime/programs/play/window/libsdl_p.h"
 #include "runtime/programs/play/window/script_lines.h"
 #include "runtime/programs/play/window/surface.h"
 
@@ -104,9 +105,9 @@ class WindowLoop {
         if (held_)
             some = 0;
         else if (seconds < 0)
-            some = SDL_WaitEvent(&event);
+            some = sdl().SDL_WaitEvent(&event);
         else
-            some = SDL_WaitEventTimeout(&event,
+            some = sdl().SDL_WaitEventTimeout(&event,
                                         std::max(1, static_cast<int>(std::ceil(seconds * 1000))));
         const ImGuiIO& io = ImGui::GetIO();
         Batch batch(std::find(std::begin(io.MouseDown), std::end(io.MouseDown), true) !=
@@ -121,7 +122,7 @@ class WindowLoop {
                 break;
             }
             take(event);
-            some = SDL_PollEvent(&event);
+            some = sdl().SDL_PollEvent(&event);
         }
     }
 
@@ -139,7 +140,7 @@ class WindowLoop {
                 break;
             case SDL_DROPFILE:
                 ui_->context().run("open", {event.drop.file});
-                SDL_free(event.drop.file);
+                sdl().SDL_free(event.drop.file);
                 break;
             case SDL_KEYDOWN:
                 press(event.key);
@@ -252,7 +253,7 @@ void wake_window() {
     if (!type || g_woken.exchange(true)) return;
     SDL_Event event{};
     event.type = type;
-    SDL_PushEvent(&event);
+    sdl().SDL_PushEvent(&event);
 }
 
 WindowEnd run_window(Player& player, const WindowOptions& options, std::string& error) {
@@ -263,7 +264,7 @@ WindowEnd run_window(Player& player, const WindowOptions& options, std::string& 
         error = reason.what();
         return WindowEnd::NoWindow;
     }
-    static const uint32_t type = SDL_RegisterEvents(1);
+    static const uint32_t type = sdl().SDL_RegisterEvents(1);
     g_wake_event = type;
     loop->run();
     g_wake_event = 0;
