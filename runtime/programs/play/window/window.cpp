@@ -33,6 +33,8 @@ std::atomic<bool> g_woken{false};       // an event is on its way: one is enough
 
 constexpr double kPlayTurn = 1.0 / 60;  // seconds between turns while time goes on
 constexpr double kOpeningTurn = 0.1;    // while another scene is read: its seconds are counted
+constexpr double kFirstWait = 0.05;     // for a scene, whose picture is made while panels are drawn
+constexpr double kUnhurried = 0.05;     // between turns while that picture is made
 constexpr int kTurnsAfterEvent = 3;     // ImGui settles sizes in the frames after a change
 
 using Clock = std::chrono::steady_clock;
@@ -54,11 +56,11 @@ class WindowLoop {
           surface_("Kinora", {layout_.width, layout_.height, layout_.maximized}) {
         scale_ = layout_.scale > 0 ? layout_.scale : surface_.display_scale();
         surface_.set_full_screen(options.full_screen);
-        show_first();
         player.advance(0);  // a scene that is there by now is rendered while fonts are loaded
         ui_.emplace(player, layout_, scale_ * surface_.pixels_per_unit(), !options.fixed_size);
         connect_input();
         begin_script();
+        player.wait_loaded(kFirstWait);
     }
 
     bool script_failed() const { return script_failed_; }
@@ -79,23 +81,19 @@ class WindowLoop {
     }
 
   private:
-    // The window is visible before fonts are loaded and the first panels are laid out.
-    void show_first() {
-        const Target target = surface_.frame();
-        std::fill_n(target.pixels,
-                    static_cast<size_t>(target.width) * static_cast<size_t>(target.height),
-                    0xff171514u);
-        surface_.present();
-    }
-
     // Seconds that may pass without an event; < 0: any time.
     double patience() const {
-        if (turns_ > 0) return 0;
+        if (turns_ > 0) return makes_first_picture() ? kUnhurried : 0;
         if (line_) return kPlayTurn;
         if (player_.opening().step != Opening::Step::None) return kOpeningTurn;
         if (player_.state().time.playing || player_.state().camera.turntable)
             return surface_.hidden() ? 0.1 : kPlayTurn;
         return ui_->next_turn();
+    }
+
+    // Nothing on the screen is worth its time then.
+    bool makes_first_picture() const {
+        return player_.load_state() == LoadState::Ready && !player_.picture();
     }
 
     void wait() {
