@@ -66,12 +66,12 @@ CommandResult PlayerCore::act(size_t row, const std::vector<std::string>& argume
 }
 
 void Player::open(const SceneRequest& request, std::optional<Session> session) {
-    if (core_->load == LoadState::Nothing) {
-        set_thread_count(request.threads > 0 ? request.threads : thread_count());
-        parallel_for(0, 2, 1, [](size_t, size_t) {});  // the threads are there from here on
-    }
+    const bool first = core_->load == LoadState::Nothing;
+    if (first) set_thread_count(request.threads > 0 ? request.threads : thread_count());
     core_->request = request;
     if (!request.scene.empty()) core_->open(request, std::move(session));
+    // The threads are there from here on; the file is being read meanwhile.
+    if (first) parallel_for(0, 2, 1, [](size_t, size_t) {});
 }
 
 LoadState Player::load_state() const {

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "runtime/programs/play/window/libsdl_p.h"
+
 namespace kinora::play {
 
 namespace {
@@ -42,13 +44,13 @@ std::array<SDL_Cursor*, ImGuiMouseCursor_COUNT> g_pointers{};
 
 const char* clipboard_text(void*) {
     static char* text = nullptr;
-    SDL_free(text);
-    text = SDL_GetClipboardText();
+    sdl().SDL_free(text);
+    text = sdl().SDL_GetClipboardText();
     return text;
 }
 
 void set_clipboard_text(void*, const char* text) {
-    SDL_SetClipboardText(text);
+    sdl().SDL_SetClipboardText(text);
 }
 
 void take_key(const SDL_KeyboardEvent& event) {
@@ -83,13 +85,13 @@ void connect_input() {
     io.SetClipboardTextFn = set_clipboard_text;
     io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
     io.ConfigInputTextCursorBlink = false;  // a window at rest draws nothing
-    g_pointers[ImGuiMouseCursor_Arrow] = SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_ARROW);
-    g_pointers[ImGuiMouseCursor_TextInput] = SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_IBEAM);
-    g_pointers[ImGuiMouseCursor_ResizeAll] = SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEALL);
-    g_pointers[ImGuiMouseCursor_ResizeNS] = SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZENS);
-    g_pointers[ImGuiMouseCursor_ResizeEW] = SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEWE);
-    g_pointers[ImGuiMouseCursor_Hand] = SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_HAND);
-    SDL_StartTextInput();
+    g_pointers[ImGuiMouseCursor_Arrow] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_ARROW);
+    g_pointers[ImGuiMouseCursor_TextInput] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_IBEAM);
+    g_pointers[ImGuiMouseCursor_ResizeAll] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEALL);
+    g_pointers[ImGuiMouseCursor_ResizeNS] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZENS);
+    g_pointers[ImGuiMouseCursor_ResizeEW] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEWE);
+    g_pointers[ImGuiMouseCursor_Hand] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_HAND);
+    sdl().SDL_StartTextInput();
 }
 
 void take_event(const SDL_Event& event, float scale) {
@@ -126,7 +128,7 @@ void take_event(const SDL_Event& event, float scale) {
 }
 
 dvec3 steering() {
-    const uint8_t* down = SDL_GetKeyboardState(nullptr);
+    const uint8_t* down = sdl().SDL_GetKeyboardState(nullptr);
     const auto axis = [&](SDL_Scancode more, SDL_Scancode less) {
         return static_cast<double>(down[more]) - static_cast<double>(down[less]);
     };
@@ -140,12 +142,12 @@ void show_pointer() {
     if (wanted == shown || wanted < 0) return;
     shown = wanted;
     SDL_Cursor* pointer = g_pointers[static_cast<size_t>(wanted)];
-    SDL_SetCursor(pointer ? pointer : g_pointers[ImGuiMouseCursor_Arrow]);
+    sdl().SDL_SetCursor(pointer ? pointer : g_pointers[ImGuiMouseCursor_Arrow]);
 }
 
 void free_pointers() {
     for (SDL_Cursor*& pointer : g_pointers)
-        if (pointer) SDL_FreeCursor(std::exchange(pointer, nullptr));
+        if (pointer) sdl().SDL_FreeCursor(std::exchange(pointer, nullptr));
 }
 
 }  // namespace kinora::play

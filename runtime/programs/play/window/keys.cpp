@@ -3,6 +3,8 @@
 
 #include <SDL.h>
 
+#include "runtime/programs/play/window/libsdl_p.h"
+
 namespace kinora::play {
 
 namespace {
@@ -47,7 +49,7 @@ int plain_key(int key) {
 
 std::string key_name(int key, unsigned modifiers) {
     if (is_modifier(key)) return {};
-    const std::string name = SDL_GetKeyName(plain_key(key));
+    const std::string name = sdl().SDL_GetKeyName(plain_key(key));
     if (name.empty()) return {};
     std::string out;
     if (modifiers & KMOD_CTRL) out += "Ctrl+";

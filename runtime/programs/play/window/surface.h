@@ -45,6 +45,7 @@ class Surface {
     SDL_Window* window_ = nullptr;
     std::vector<uint32_t> pixels_;
     Target target_;
+    const void* mapped_ = nullptr;  // the pixels whose pages are there
 };
 
 }  // namespace kinora::play

@@ -20,6 +20,7 @@
 #include "runtime/programs/play/window/batch.h"
 #include "runtime/programs/play/window/input.h"
 #include "runtime/programs/play/window/keys.h"
+#include "runtime/programs/play/window/libsdl_p.h"
 #include "runtime/programs/play/window/script_lines.h"
 #include "runtime/programs/play/window/surface.h"
 
@@ -32,6 +33,8 @@ std::atomic<bool> g_woken{false};       // an event is on its way: one is enough
 
 constexpr double kPlayTurn = 1.0 / 60;  // seconds between turns while time goes on
 constexpr double kOpeningTurn = 0.1;    // while another scene is read: its seconds are counted
+constexpr double kFirstWait = 0.05;     // for a scene, whose picture is made while panels are drawn
+constexpr double kUnhurried = 0.05;     // between turns while that picture is made
 constexpr int kTurnsAfterEvent = 3;     // ImGui settles sizes in the frames after a change
 
 using Clock = std::chrono::steady_clock;
@@ -53,11 +56,11 @@ class WindowLoop {
           surface_("Kinora", {layout_.width, layout_.height, layout_.maximized}) {
         scale_ = layout_.scale > 0 ? layout_.scale : surface_.display_scale();
         surface_.set_full_screen(options.full_screen);
-        show_first();
         player.advance(0);  // a scene that is there by now is rendered while fonts are loaded
         ui_.emplace(player, layout_, scale_ * surface_.pixels_per_unit(), !options.fixed_size);
         connect_input();
         begin_script();
+        player.wait_loaded(kFirstWait);
     }
 
     bool script_failed() const { return script_failed_; }
@@ -78,23 +81,19 @@ class WindowLoop {
     }
 
   private:
-    // The window is visible before fonts are loaded and the first panels are laid out.
-    void show_first() {
-        const Target target = surface_.frame();
-        std::fill_n(target.pixels,
-                    static_cast<size_t>(target.width) * static_cast<size_t>(target.height),
-                    0xff171514u);
-        surface_.present();
-    }
-
     // Seconds that may pass without an event; < 0: any time.
     double patience() const {
-        if (turns_ > 0) return 0;
+        if (turns_ > 0) return makes_first_picture() ? kUnhurried : 0;
         if (line_) return kPlayTurn;
         if (player_.opening().step != Opening::Step::None) return kOpeningTurn;
         if (player_.state().time.playing || player_.state().camera.turntable)
             return surface_.hidden() ? 0.1 : kPlayTurn;
         return ui_->next_turn();
+    }
+
+    // Nothing on the screen is worth its time then.
+    bool makes_first_picture() const {
+        return player_.load_state() == LoadState::Ready && !player_.picture();
     }
 
     void wait() {
@@ -104,9 +103,9 @@ class WindowLoop {
         if (held_)
             some = 0;
         else if (seconds < 0)
-            some = SDL_WaitEvent(&event);
+            some = sdl().SDL_WaitEvent(&event);
         else
-            some = SDL_WaitEventTimeout(&event,
+            some = sdl().SDL_WaitEventTimeout(&event,
                                         std::max(1, static_cast<int>(std::ceil(seconds * 1000))));
         const ImGuiIO& io = ImGui::GetIO();
         Batch batch(std::find(std::begin(io.MouseDown), std::end(io.MouseDown), true) !=
@@ -121,7 +120,7 @@ class WindowLoop {
                 break;
             }
             take(event);
-            some = SDL_PollEvent(&event);
+            some = sdl().SDL_PollEvent(&event);
         }
     }
 
@@ -139,7 +138,7 @@ class WindowLoop {
                 break;
             case SDL_DROPFILE:
                 ui_->context().run("open", {event.drop.file});
-                SDL_free(event.drop.file);
+                sdl().SDL_free(event.drop.file);
                 break;
             case SDL_KEYDOWN:
                 press(event.key);
@@ -252,7 +251,7 @@ void wake_window() {
     if (!type || g_woken.exchange(true)) return;
     SDL_Event event{};
     event.type = type;
-    SDL_PushEvent(&event);
+    sdl().SDL_PushEvent(&event);
 }
 
 WindowEnd run_window(Player& player, const WindowOptions& options, std::string& error) {
@@ -263,7 +262,7 @@ WindowEnd run_window(Player& player, const WindowOptions& options, std::string& 
         error = reason.what();
         return WindowEnd::NoWindow;
     }
-    static const uint32_t type = SDL_RegisterEvents(1);
+    static const uint32_t type = sdl().SDL_RegisterEvents(1);
     g_wake_event = type;
     loop->run();
     g_wake_event = 0;
