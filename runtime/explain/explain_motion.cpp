@@ -42,7 +42,7 @@ std::string why_it_deforms(const Scene& scene, const Shape& shape) {
     std::string why;
     auto add = [&](const std::string& text) { why += (why.empty() ? "" : ", ") + text; };
     if (shape.skin != kNone)
-        add(fmt::format("skin '{}' of {} joints, {} of a vertex",
+        add(fmt::format("skin '{}' of {} joints, {} influences of a vertex",
                         scene.description->skins[shape.skin].id, shape.joint_nodes.size(),
                         scene.options.influences ? fmt::format("at most {}", scene.options.influences)
                                                  : std::string("all")));

@@ -1,8 +1,8 @@
 // runtime/programs/convert/kinora_convert.cpp: kinora-convert's command line.
 #include "runtime/base/file_extension.h"
+#include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/finish.h"
-#include "runtime/programs/common/heap.h"
 #include "runtime/programs/convert/convert.h"
 
 namespace kinora {

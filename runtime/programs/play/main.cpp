@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <new>
 
+#include "runtime/base/memory/heap.h"
 #include "runtime/play/player.h"
 #include "runtime/programs/common/finish.h"
-#include "runtime/programs/common/large_pages.h"
 #include "runtime/programs/play/headless.h"
 #include "runtime/programs/play/options.h"
 #include "runtime/programs/play/ui/layout.h"

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "raytrace/ray_tracer.h"
+#include "runtime/base/memory/heap.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
 #include "runtime/description/findings.h"
@@ -18,7 +19,6 @@
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
-#include "runtime/programs/common/heap.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/band_writer.h"

@@ -6,9 +6,9 @@
 #include <new>
 #include <string_view>
 
+#include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
-#include "runtime/programs/common/heap.h"
 
 namespace kinora {
 

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <new>
 
+#include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
-#include "runtime/programs/common/heap.h"
 
 int main(int argc, char** argv) {
     // A file's memory serves the next one: else a batch takes a tenth longer.

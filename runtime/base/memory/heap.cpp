@@ -1,13 +1,16 @@
-// runtime/programs/common/large_pages.cpp: the heap is made long at once, and the kernel is told.
-#include "runtime/programs/common/large_pages.h"
+// runtime/base/memory/heap.cpp: settings of malloc, and pages that are there before they are used.
+#include "runtime/base/memory/heap.h"
 
 #include <malloc.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+
+#include "runtime/base/memory/pages.h"
 
 namespace kinora {
 
@@ -24,6 +27,25 @@ bool is_limited(__rlimit_resource_t what) {
 }
 
 }  // namespace
+
+void ready_heap(size_t bytes) {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 64 << 20);
+    mallopt(M_TRIM_THRESHOLD, 256 << 20);
+    void* block = std::malloc(bytes);
+    if (block) provide_pages(block, bytes);
+    std::free(block);
+#else
+    (void)bytes;
+#endif
+}
+
+size_t heap_of_scene(const std::filesystem::path& file) {
+    std::error_code code;
+    const uintmax_t bytes = std::filesystem::file_size(file, code);
+    constexpr uintmax_t kLeast = 1 << 20, kMost = 32 << 20;
+    return size_t(kLeast + (code ? 0 : std::min(3 * bytes, kMost)));
+}
 
 void use_large_pages() {
 #ifdef __GLIBC__
