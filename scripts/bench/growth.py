@@ -7,20 +7,19 @@ row a size, and the exponent between the last two sizes. It asserts nothing.
                                                       # nodes move, by the sizes 1 to 10,000: a table, .csv and .svg
                                                       # for docs/trade.md
 
-The scenes are a field of squares seen from above. Times are the CPU time of a run on one thread less
-that of a run that only loads (`--list lights`), the least of three. WORD: rows whose names hold it.
+The scenes are a field of squares seen from above. Times are those of building the scene and
+of its first frame on one thread (`--stats=json`), the least of five runs. WORD: rows whose names hold it.
 --large adds ten million triangles, whose file has 600 MB.
 """
 import json
 import math
 import pathlib
-import resource
 import statistics
 import subprocess
 import sys
 import tempfile
 
-RUNS = 3
+RUNS = 5
 
 
 def sheet(triangles):
@@ -176,19 +175,17 @@ def measure_moving(program):
                     "\n\n![ms of a frame's update against nodes](images/growth_moving.svg)\n\n" + text[text.index(end):])
 
 
-def cpu_seconds(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
 def frame_seconds(program, scene, size="160x120", samples=1):
-    frame = [program, scene, "--size", size, "--spp", str(samples), "--threads", "1", "-q", "-o",
-             "null"]
-    load = [program, scene, "--list", "lights"]
-    return (min(cpu_seconds(frame) for _ in range(RUNS)) -
-            min(cpu_seconds(load) for _ in range(RUNS)))
+    """Of building the scene, its tree included, and of its first frame. Reading is no part of it: it
+    takes longer than the frame where the scene is large, and a difference of two runs would be its noise."""
+    command = [program, scene, "--size", size, "--spp", str(samples), "--threads", "1", "-q", "-o", "null",
+               "--stats=json"]
+
+    def once():
+        stats = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+        return (stats["build_ms"] + stats["frames"][0]["total_ms"]) / 1000
+
+    return min(once() for _ in range(RUNS))
 
 
 # A row: sizes, the scene of a size, what the program is told of it.

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <thread>
 
 #include "jit/target.h"
+#include "rsl/model/text_table.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {
@@ -154,6 +156,29 @@ TEST(Strings, OpacityKernelsDoNotPrint) {
     RunShader run("surface t() { printf(\"x\\n\"); Oi = 0.5; Ci = 1; }", options);
     ASSERT_TRUE(run.ok()) << run.findings();
     EXPECT_TRUE(run.kernels.point->services.empty());
+}
+
+// More texts than the first blocks hold; threads add the same and different ones, and read.
+TEST(TextTable, KeepsNumbersAndAddressesWhileThreadsAdd) {
+    TextTable table;
+    EXPECT_EQ(table.id(""), 0);
+    const std::string& first = table.text(table.id("first"));
+    std::vector<std::vector<int32_t>> found(4);
+    {
+        std::vector<std::jthread> threads;
+        for (std::vector<int32_t>& ids : found)
+            threads.emplace_back([&] {
+                for (int k = 0; k < 3000; ++k) {
+                    ids.push_back(table.id("text " + std::to_string(k)));
+                    EXPECT_EQ(table.text(ids[size_t(k) / 2]), "text " + std::to_string(k / 2));
+                }
+            });
+    }
+    for (const std::vector<int32_t>& ids : found) EXPECT_EQ(ids, found[0]);
+    EXPECT_EQ(table.count(), 3002);
+    EXPECT_EQ(&first, &table.text(1));
+    EXPECT_EQ(first, "first");
+    EXPECT_DEATH(table.text(3002), "count");
 }
 
 }  // namespace
