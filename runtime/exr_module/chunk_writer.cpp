@@ -71,13 +71,13 @@ class ChunkWriter final : public KinoraExrWriter {
     }
 
     void write(int, int rows, const float* rgba, const float* const* planes) override {
-        if (half_) halves_.take(rgba, 4 * width_ * size_t(rows));
         for (size_t row = 0; row < size_t(rows); ++row) {
+            if (half_) halves_.take(rgba + 4 * row * width_, 4 * width_);
             for (const ExrChannel& channel : channels_) {
                 if (channel.plane >= 0)
                     add(planes[channel.plane] + row * width_, 1);
                 else if (half_)
-                    add(halves_.data() + 4 * row * width_ + channel.color, 4);
+                    add(halves_.data() + channel.color, 4);
                 else
                     add(rgba + 4 * row * width_ + channel.color, 4);
             }
@@ -137,7 +137,7 @@ class ChunkWriter final : public KinoraExrWriter {
     int height_;
     bool half_;
     std::vector<ExrChannel> channels_;
-    Halves halves_;
+    Halves halves_;  // of a row
     std::vector<uint8_t> raw_, predicted_, packed_;  // of the chunk under way
     int rows_ = 0;                                   // taken so far
 };
