@@ -6,7 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
+#include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 
 namespace kinora {
@@ -131,30 +133,33 @@ raytrace::Film of_picture(const raytrace::Film& film, const DisplaySettings& set
     });
 }
 
-// to_8_bit's bytes from a table: its function of a component grows, so 255 thresholds say it all.
+// to_8_bit's bytes from a table: its function of a component grows, so 255 thresholds say it all. A
+// step of the table has one of them at most.
 class Bytes {
   public:
     explicit Bytes(ColorEncoding encoding) {
+        std::array<float, 257> least{};  // of each byte
         for (int v = 1; v < 256; ++v) {
             uint32_t low = 0, high = std::bit_cast<uint32_t>(2.0f);  // not yet v; v or more
             while (high - low > 1) {
                 uint32_t middle = low + (high - low) / 2;
                 (byte_of(std::bit_cast<float>(middle), encoding) >= v ? high : low) = middle;
             }
-            least_[v] = std::bit_cast<float>(high);
+            least[size_t(v)] = std::bit_cast<float>(high);
         }
-        for (uint32_t k = 0; k < first_.size(); ++k) {
+        least[256] = std::numeric_limits<float>::infinity();
+        for (uint32_t k = 0; k < steps_.size(); ++k) {
             float begin = std::bit_cast<float>((kFirst + k) << kShift);
-            first_[k] = byte_of(begin, encoding);
+            const uint32_t v = byte_of(begin, encoding);
+            steps_[k] = {least[v + 1], v};
+            if (k > 0) CHECK_LE(v, steps_[k - 1].byte + 1);
         }
     }
     // c is no NaN.
     uint8_t operator()(float c) const {
-        if (!(c >= std::bit_cast<float>(kFirst << kShift))) return 0;
-        if (c >= 1) return 255;
-        uint8_t v = first_[(std::bit_cast<uint32_t>(c) >> kShift) - kFirst];
-        while (v < 255 && c >= least_[v + 1]) ++v;
-        return v;
+        c = std::min(std::max(c, std::bit_cast<float>(kFirst << kShift)), 1.0f);
+        const Step& step = steps_[(std::bit_cast<uint32_t>(c) >> kShift) - kFirst];
+        return uint8_t(step.byte + uint32_t(c >= step.next));
     }
 
   private:
@@ -168,8 +173,11 @@ class Bytes {
         return to_8_bit(pixel, encoding).rgba[0];
     }
 
-    std::array<float, 256> least_{};
-    std::array<uint8_t, kSteps> first_{};
+    struct Step {
+        float next = 0;     // from here on it is one more
+        uint32_t byte = 0;  // where it begins
+    };
+    std::array<Step, kSteps + 1> steps_{};  // the last one: 1
 };
 
 const Bytes& bytes_of(ColorEncoding encoding) {
@@ -210,9 +218,10 @@ void fast_8_bit(const raytrace::Film& film, ColorEncoding encoding, std::vector<
                 std::copy_n(image.rgba.begin(), 4, to);
                 continue;
             }
-            float scale = p.w > 0 ? 1.0f / p.w : 1.0f;
-            for (int c = 0; c < 3; ++c) to[c] = color(p[c] * scale);
-            to[3] = alpha(p.w);
+            const float scale = p.w == 1 || !(p.w > 0) ? 1.0f : 1.0f / p.w;
+            const std::array<uint8_t, 4> bytes{color(p.x * scale), color(p.y * scale),
+                                               color(p.z * scale), alpha(p.w)};
+            std::memcpy(to, bytes.data(), 4);
         }
     });
 }

@@ -73,16 +73,34 @@ struct Place {
     float depth;
 };
 
-// How much one place says about another.
-float likeness(const Place& a, const Place& b) {
-    constexpr float kOther = 1e-4f;
-    if (a.surface != b.surface) return kOther;
-    if (a.surface == kNone) return 1;
-    float facing = std::max(glm::dot(a.Ng, b.Ng), 0.0f);
+using FourFloats = float __attribute__((vector_size(16)));
+
+FourFloats load(const vec4& from) {
+    FourFloats to;
+    std::memcpy(&to, &from, sizeof(to));
+    return to;
+}
+
+constexpr float kOther = 1e-4f;
+constexpr float kApart = 400;  // one over the square of the share of a depth
+
+// How much four places say about another: next to nothing on another surface; less where they face
+// elsewhere or lie at another depth.
+FourFloats likeness(const Place& here, const Place* const (&others)[4]) {
+    // A loop would write them to memory one by one.
+    const auto of_four = [&](auto&& of) {
+        return FourFloats{of(*others[0]), of(*others[1]), of(*others[2]), of(*others[3])};
+    };
+    const FourFloats is_same = of_four(
+        [&](const Place& other) { return other.surface == here.surface ? 1.0f : 0.0f; });
+    if (here.surface == kNone) return is_same + kOther;
+    FourFloats facing = of_four([&](const Place& other) { return glm::dot(here.Ng, other.Ng); });
+    FourFloats apart = of_four([&](const Place& other) { return here.depth - other.depth; });
+    facing = facing > 0 ? facing : FourFloats{};
     facing *= facing;
     facing *= facing;
-    float apart = std::abs(a.depth - b.depth) / std::max(std::abs(a.depth), 1e-30f);
-    return std::max(facing * facing / (1 + 400 * apart * apart), kOther);
+    apart *= 1 / std::max(std::abs(here.depth), 1e-30f);
+    return is_same * facing * facing / (1 + kApart * apart * apart) + kOther;
 }
 
 // The two small pixels beside a large one's center in one direction, and their shares.
@@ -118,22 +136,24 @@ Place place_at(const PictureGuide& guide, int x, int y) {
     return {guide.surface[k], guide.Ng[k], guide.depth[k]};
 }
 
-using FourFloats = float __attribute__((vector_size(16)));
-
-FourFloats load(const vec4& from) {
-    FourFloats to;
-    std::memcpy(&to, &from, sizeof(to));
-    return to;
-}
-
 constexpr float kAlike = 0.98f;  // on one plane, as most neighbors are: the guide decides nothing
 constexpr float kNoEdge = 0.3f;  // on one surface, at least
+
+// Whether that likeness exceeds `much`, which is far more than kOther; without quotients.
+bool is_alike(float much, const Place& a, const Place& b) {
+    if (a.surface != b.surface) return false;
+    if (a.surface == kNone) return true;
+    float facing = std::max(glm::dot(a.Ng, b.Ng), 0.0f);
+    facing *= facing;
+    facing *= facing;
+    const float depth = std::max(std::abs(a.depth), 1e-15f), apart = a.depth - b.depth;
+    return facing * facing * depth * depth > much * (depth * depth + kApart * apart * apart);
+}
 
 // Whether a pixel is that much like its right neighbor and the two below.
 bool are_alike(float much, const Place& here, const Place& right, const Place& below,
                const Place& both) {
-    return likeness(here, right) > much && likeness(here, below) > much &&
-           likeness(here, both) > much;
+    return is_alike(much, here, right) && is_alike(much, here, below) && is_alike(much, here, both);
 }
 
 // Of each pixel of a guide: whether an edge may lie within a pixel of its center.
@@ -186,7 +206,10 @@ class Enlargement {
     }
 
     void run() {
-        each_row(out_.height, [&](int y) { row(y); });
+        parallel_for(0, size_t(out_.height), 16, [&](size_t begin, size_t end) {
+            std::vector<vec4> mixed(static_cast<size_t>(small_.width));
+            for (size_t y = begin; y < end; ++y) row(int(y), mixed);
+        });
     }
 
   private:
@@ -207,30 +230,40 @@ class Enlargement {
         }
     }
 
-    void row(int y) {
+    // `mixed`: the two small rows beside this one, by their shares.
+    void row(int y, std::vector<vec4>& mixed) {
         const Neighbors& v = rows_[size_t(y)];
+        const size_t above = at(0, v.index[0]), below = at(0, v.index[1]);
+        for (size_t x = 0; x < mixed.size(); ++x) {
+            const FourFloats sum = v.share[0] * load(small_.rgba[above + x]) +
+                                   v.share[1] * load(small_.rgba[below + x]);
+            std::memcpy(&mixed[x], &sum, sizeof(sum));
+        }
         vec4* to = &out_.at(0, y);
         for (int x = 0; x < out_.width; ++x) {
             const Neighbors& h = columns_[size_t(x)];
-            const size_t from[4] = {at(h.index[0], v.index[0]), at(h.index[1], v.index[0]),
-                                    at(h.index[0], v.index[1]), at(h.index[1], v.index[1])};
-            float weight[4];
-            for (int k = 0; k < 4; ++k) weight[k] = h.share[k & 1] * v.share[k >> 1];
-            if (!alike_[from[0]]) weigh(x, y, from, weight);
-            FourFloats sum = weight[0] * load(small_.rgba[from[0]]);
-            for (int k = 1; k < 4; ++k) sum += weight[k] * load(small_.rgba[from[k]]);
+            FourFloats sum = h.share[0] * load(mixed[size_t(h.index[0])]) +
+                             h.share[1] * load(mixed[size_t(h.index[1])]);
+            if (!alike_[above + size_t(h.index[0])]) sum = weighed(x, y);
             std::memcpy(&to[x], &sum, sizeof(sum));
         }
     }
 
-    void weigh(int x, int y, const size_t (&from)[4], float (&weight)[4]) const {
+    // Where the guide has edges.
+    FourFloats weighed(int x, int y) const {
+        const Neighbors &h = columns_[size_t(x)], &v = rows_[size_t(y)];
+        const size_t from[4] = {at(h.index[0], v.index[0]), at(h.index[1], v.index[0]),
+                                at(h.index[0], v.index[1]), at(h.index[1], v.index[1])};
+        const FourFloats share = {h.share[0] * v.share[0], h.share[1] * v.share[0],
+                                  h.share[0] * v.share[1], h.share[1] * v.share[1]};
         const Place here = place_at(guide_, guide_columns_[size_t(x)], guide_rows_[size_t(y)]);
-        float weights = 0;
-        for (int k = 0; k < 4; ++k) {
-            weight[k] = (weight[k] + 1e-3f) * likeness(here, centers_[from[k]]);
-            weights += weight[k];
-        }
-        for (float& w : weight) w /= weights;
+        const Place* const places[4] = {&centers_[from[0]], &centers_[from[1]], &centers_[from[2]],
+                                        &centers_[from[3]]};
+        const FourFloats weight = (share + 1e-3f) * likeness(here, places);
+        const FourFloats sum =
+            weight[0] * load(small_.rgba[from[0]]) + weight[1] * load(small_.rgba[from[1]]) +
+            weight[2] * load(small_.rgba[from[2]]) + weight[3] * load(small_.rgba[from[3]]);
+        return sum / (weight[0] + weight[1] + weight[2] + weight[3]);
     }
 
     const raytrace::Film& small_;
