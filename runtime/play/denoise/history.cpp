@@ -117,17 +117,41 @@ void History::clip(Seen& before, size_t at, const Planes& planes) const {
     before.second = spread + before.first * before.first;
 }
 
-void History::blend_pixel(std::optional<Seen> before, size_t at, Planes& planes) {
+// The share that the new picture's color is to have for what has changed: a shadow that glides over
+// a surface leaves no trail. The nine pixels' differences from what was seen there have a mean, the
+// change, and a spread, the noise. The share makes the error least that both leave together. A mean
+// that noise alone may have says nothing.
+float History::share_of_change(size_t at, const Planes& planes) const {
+    constexpr float kByChance = 2;  // times the variance of a mean
+    float sum = 0, squares = 0, count = 0;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+            const size_t near = size_t(ptrdiff_t(at) + dy * ptrdiff_t(planes.stride) + dx);
+            if (planes.surface[near] != planes.surface[at] || !(seen_[near].count >= 1)) continue;
+            const float change = brightness(fresh_[0][near], fresh_[1][near], fresh_[2][near]) -
+                                 brightness(seen_[near].c[0], seen_[near].c[1], seen_[near].c[2]);
+            sum += change;
+            squares += change * change;
+            count += 1;
+        }
+    if (count < 3) return 0;
+    const float mean = sum / count, noise = std::max(squares / count - mean * mean, 1e-12f);
+    const float change = mean * mean - kByChance * noise / count;
+    return change > 0 ? change / (change + noise) : 0;
+}
+
+void History::blend_pixel(Seen before, size_t at, Planes& planes) {
     const float bright = brightness(planes.c[0][at], planes.c[1][at], planes.c[2][at]);
     float count = 1, first = bright, second = bright * bright;
-    if (before && before->count >= 1) {
-        clip(*before, at, planes);
-        count = std::min(before->count + 1, kMostCount);
+    if (before.count >= 1) {
+        const float changed = share_of_change(at, planes);
+        clip(before, at, planes);
+        count = std::min({before.count + 1, kMostCount, 1 / std::max(changed, 1e-6f)});
         const float share = std::max(1 / count, kNewest);
         for (int k = 0; k < 4; ++k)
-            planes.c[k][at] = before->c[k] + share * (planes.c[k][at] - before->c[k]);
-        first = before->first + share * (first - before->first);
-        second = before->second + share * (second - before->second);
+            planes.c[k][at] = before.c[k] + share * (planes.c[k][at] - before.c[k]);
+        first = before.first + share * (first - before.first);
+        second = before.second + share * (second - before.second);
     }
     moments_.count[at] = count;
     moments_.first[at] = first;
@@ -162,34 +186,33 @@ void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
     const bool known = known_ && accel_from_local_.size() == scene.geometry.size();
     if (known)
         for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
-    parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
-        for (size_t y = begin; y < end; ++y)
-            for (int x = 0; x < planes.width; ++x) {
-                const size_t at = planes.at(x, int(y));
-                moments_.count[at] = 0;
-                if (!(planes.variance[at] > 0)) continue;
-                const vec3 N(planes.N[0][at], planes.N[1][at], planes.N[2][at]);
-                std::optional<Seen> before;
-                if (known) {
-                    const size_t hit = y * size_t(planes.width) + size_t(x);
-                    before = find(place_before(scene, hits, hit), N, planes.surface[at]);
+    seen_.assign(planes.surface.size(), {});
+    const auto each_noisy = [&](auto&& see) {
+        parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
+            for (size_t y = begin; y < end; ++y)
+                for (int x = 0; x < planes.width; ++x) {
+                    const size_t at = planes.at(x, int(y));
+                    if (planes.variance[at] > 0) see(x, int(y), at);
                 }
-                blend_pixel(before, at, planes);
-            }
-    });
-    parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
-        for (size_t y = begin; y < end; ++y)
-            for (int x = 0; x < planes.width; ++x) {
-                const size_t at = planes.at(x, int(y));
-                if (!(planes.variance[at] > 0)) continue;
-                const float count = moments_.count[at], first = moments_.first[at];
-                float spread = spread_around(planes, x, int(y));
-                if (count >= kFew)
-                    spread = std::min(spread, std::max(moments_.second[at] - first * first, 0.0f));
-                // Of the mixture: of so many samples of equal share, or of ever smaller ones.
-                const float of_mixture = std::max(1 / count, kNewest / (2 - kNewest));
-                planes.variance[at] = std::max(spread * of_mixture, 1e-12f);
-            }
+        });
+    };
+    if (known)
+        each_noisy([&](int x, int y, size_t at) {
+            const vec3 N(planes.N[0][at], planes.N[1][at], planes.N[2][at]);
+            const size_t hit = size_t(y) * size_t(planes.width) + size_t(x);
+            if (auto seen = find(place_before(scene, hits, hit), N, planes.surface[at]))
+                seen_[at] = *seen;
+        });
+    std::fill(moments_.count.begin(), moments_.count.end(), 0.0f);
+    each_noisy([&](int, int, size_t at) { blend_pixel(seen_[at], at, planes); });
+    each_noisy([&](int x, int y, size_t at) {
+        const float count = moments_.count[at], first = moments_.first[at];
+        float spread = spread_around(planes, x, y);
+        if (count >= kFew)
+            spread = std::min(spread, std::max(moments_.second[at] - first * first, 0.0f));
+        // Of the mixture: of so many samples of equal share, or of ever smaller ones.
+        const float of_mixture = std::max(1 / count, kNewest / (2 - kNewest));
+        planes.variance[at] = std::max(spread * of_mixture, 1e-12f);
     });
 }
 

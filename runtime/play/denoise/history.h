@@ -35,13 +35,15 @@ class History {
     vec3 place_before(const Scene& scene, const FirstHits& hits, size_t hit) const;
     std::optional<Seen> find(vec3 P, vec3 N, uint32_t surface) const;
     void clip(Seen& before, size_t at, const Planes& planes) const;
-    void blend_pixel(std::optional<Seen> before, size_t at, Planes& planes);
+    float share_of_change(size_t at, const Planes& planes) const;
+    void blend_pixel(Seen before, size_t at, Planes& planes);
     float spread_around(const Planes& planes, int x, int y) const;
     void keep_places(const Scene& scene);
 
     bool known_ = false;
     Planes before_;
     std::vector<float> fresh_[4];  // colors before they are mixed
+    std::vector<Seen> seen_;       // what the picture before has; count 0: nothing
     Moments moments_, moments_before_;
     raytrace::Camera camera_;
     // Of each row of Scene::geometry: the matrix of instanced ones, the vertices of deforming ones.

@@ -1,7 +1,7 @@
 // tests/runtime/play/denoise_moving_test.cpp: a soft shadow that glides over a floor: the filter may
 // neither smear its edge nor leave a trail of it.
 //
-// The same eight pictures are made many times by other random numbers. The mean of the filtered ones,
+// The same ten pictures are made many times by other random numbers. The mean of the filtered ones,
 // less the true picture, is what the filter does wrong whatever the noise: a trail is a share of what
 // the pictures before showed.
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace kinora {
 namespace {
 
-constexpr int kFrames = 10, kRuns = 16, kTruth = 192;
+constexpr int kFrames = 10, kRuns = 6, kTruth = 64;
 constexpr int64_t kFirst = 8;
 
 float bright(const raytrace::Film& film, size_t pixel) {
@@ -112,8 +112,8 @@ TEST(DenoiseMoving, AShadowLeavesNoTrail) {
                 edges, std::sqrt(raw_error / edges), std::sqrt(shown_error / edges), std::sqrt(bias / edges),
                 lag / moved);
     EXPECT_GT(edges, 100);
-    EXPECT_LT(shown_error, raw_error);
-    EXPECT_LT(lag / moved, 1);
+    EXPECT_LT(shown_error, 0.8 * raw_error);
+    EXPECT_LT(lag / moved, 0.2);
 }
 
 }  // namespace
