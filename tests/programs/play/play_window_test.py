@@ -119,6 +119,25 @@ class WindowTest(unittest.TestCase):
         self.assertAlmostEqual(sum(right for right, _ in orbits), -0.4 * 60, delta=0.01)
         self.assertAlmostEqual(sum(up for _, up in orbits), 0.4 * 30, delta=0.01)
 
+    def test_a_drag_in_one_go_keeps_its_last_step(self):
+        """Press, steps and release lie in the queue together, while every frame takes long."""
+        window = self.open(SCENES / "rays.dae")
+        self.drawn(PICTURE)
+        with x_probe.Hand(self.display) as hand:
+            hand.move(500, 300)
+            for _ in range(8):
+                hand.button(1, True)
+                for step in range(5):
+                    hand.move(504 + 7 * step, 300 + step)
+                hand.move(540, 310)
+                hand.button(1, False)
+                hand.move(500, 300)
+        text = self.words(window)
+        turned = [tuple(map(float, m)) for m in re.findall(r"^orbit (\S+) (\S+)", text, re.M)]
+        self.assertAlmostEqual(sum(right for right, _ in turned), -0.4 * 40 * 8, delta=0.01)
+        self.assertAlmostEqual(sum(up for _, up in turned), 0.4 * 10 * 8, delta=0.01)
+        self.assertNotRegex(text, re.compile("^click", re.M))
+
     def test_the_mouse_looks_flies_and_wipes(self):
         window = self.open(MATTE)
         self.drawn(PICTURE)
