@@ -29,7 +29,6 @@ PANEL(show_scene, "scene")
 PANEL(show_parameters, "parameters")
 PANEL(show_editor, "editor")
 PANEL(show_pixel, "pixel")
-PANEL(show_code, "code")
 PANEL(show_findings, "findings")
 PANEL(show_source, "source")
 PANEL(show_explained, "explained")
@@ -42,6 +41,14 @@ PANEL(full_screen, "full_screen")
 PANEL(keys, "keys")
 PANEL(commands, "commands")
 #undef PANEL
+
+// It stands under the statements of the panel Pixel.
+CommandResult action_show_code(PlayerCore& core, const Arguments&) {
+    CommandResult result = toggle(core, "code");
+    const auto& panels = core.state.panels;
+    if (!panels.empty() && panels.back() == "code") core.show_panel("pixel");
+    return result;
+}
 
 CommandResult action_state(PlayerCore& core, const Arguments& a) {
     std::ofstream out(a.text(0), std::ios::binary);

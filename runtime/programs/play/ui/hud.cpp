@@ -59,8 +59,12 @@ void draw_stage_times(Context& context, ImVec2 size) {
     const float line = low - size.y / 2;
     for (float x = corner.x; x < corner.x + size.x; x += theme.px(8))
         list->AddRectFilled({x, line}, {x + theme.px(4), line + 1}, IM_COL32(255, 255, 255, 90));
-    list->AddText({corner.x + theme.px(4), line - ImGui::GetTextLineHeight() - 1},
-                  IM_COL32(255, 255, 255, 120), fmt::format("{:.0f} ms", interval).c_str());
+    const std::string label = fmt::format("{:.0f} ms", interval);
+    const ImVec2 extent = ImGui::CalcTextSize(label.c_str()),
+                 at{corner.x + theme.px(4), line - extent.y - 1};
+    list->AddRectFilled({at.x - theme.px(2), at.y}, {at.x + extent.x + theme.px(2), line - 1},
+                        IM_COL32(0, 0, 0, 160), theme.px(2));  // bars lie behind it
+    list->AddText(at, IM_COL32(255, 255, 255, 190), label.c_str());
     ImGui::Dummy(size);
 }
 

@@ -49,6 +49,8 @@ size_t components(ParamKind kind) {
     return 0;
 }
 
+constexpr float kThreeNumbers = 170;
+
 // The numbers of one element, changed in place. A step of a drag is a share of the number.
 bool edit_numbers(const Theme& theme, ParamKind kind, double* numbers) {
     const float width = ImGui::GetContentRegionAvail().x - theme.px(4);
@@ -63,8 +65,11 @@ bool edit_numbers(const Theme& theme, ParamKind kind, double* numbers) {
     const float speed = std::max(0.002f, largest * 0.005f);
     bool changed = false;
     if (kind == ParamKind::Color) {
+        // Where three numbers have no room, the color alone; a click on it shows them.
+        const bool has_room = width >= theme.px(kThreeNumbers);
         changed = ImGui::ColorEdit3("##value", values,
-                                    ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+                                    ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR |
+                                        (has_room ? 0 : ImGuiColorEditFlags_NoInputs));
     } else if (kind == ParamKind::Matrix) {
         for (int row = 0; row < 4; ++row) {
             ImGui::PushID(row);
