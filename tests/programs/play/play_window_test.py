@@ -182,6 +182,23 @@ class WindowTest(unittest.TestCase):
         window.recorded(self.record, "^finding 1$")
         self.words(window)
 
+    def test_the_status_line_counts_findings(self):
+        """Its colored dot stands where the scene's name ends; a click there lists them."""
+        scene = self.folder / "scene.dae"
+        scene.write_text(MATTE.read_text().replace('target="#dim"', 'target="#nowhere"', 1))
+        window = self.open(scene)
+        self.drawn(PICTURE)
+
+        def dot():
+            """The first colored pixel of the line."""
+            line = self.display.rgb()[3 * 788 * 1280:3 * (788 * 1280 + 600)]
+            colors = [line[3 * x:3 * x + 3] for x in range(1, 600)]
+            return next((x for x, (red, _, blue) in enumerate(colors, 1) if red > blue + 90), 0)
+        self.eventually(dot, "the status line tells no finding")
+        window.click(dot() + 2, 788)
+        window.recorded(self.record, "^panel findings$")
+        self.words(window)
+
     def test_a_record_leads_to_the_same_state(self):
         """Keys and mouse by the clock, then the record without a window: all that is observed is the same."""
         script = self.folder / "end.txt"

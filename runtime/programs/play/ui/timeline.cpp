@@ -187,7 +187,10 @@ void Timeline::ruler(Context& context) {
     for (double frame = std::ceil(first / step) * step; frame <= time.last + 1e-9; frame += step) {
         const float x = std::round(x_of(frame));
         list->AddRectFilled({x, corner.y}, {x + 1, corner.y + theme.px(6)}, theme.faint);
-        list->AddText({x + theme.px(4), corner.y}, theme.dim, fmt::format("{:.0f}", frame).c_str());
+        const std::string label = fmt::format("{:.0f}", frame);
+        const float width = ImGui::CalcTextSize(label.c_str()).x, gap = theme.px(4);
+        const bool fits = x + gap + width <= corner.x + size.x;
+        list->AddText({fits ? x + gap : x - gap - width, corner.y}, theme.dim, label.c_str());
     }
     if (wide / static_cast<float>(frames) > theme.px(4))
         for (double frame = std::ceil(first); frame <= time.last + 1e-9; frame += 1)

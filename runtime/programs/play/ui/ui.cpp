@@ -235,6 +235,34 @@ void Ui::splitter(Area area, const Box& box) {
         list->AddRectFilled({box.low.x, box.low.y - thick}, {box.high.x, box.low.y + thick}, color);
 }
 
+// How many errors and warnings there are; a click lists them.
+void Ui::tell_findings(float x, const Box& box) {
+    size_t errors = 0, warnings = 0;
+    for (const FindingText& finding : context_.player.findings()) {
+        errors += finding.severity == "error";
+        warnings += finding.severity == "warning";
+    }
+    std::string text;
+    const auto add = [&](size_t count, const char* what) {
+        if (count)
+            text += fmt::format("{}{} {}{}", text.empty() ? "" : ", ", count, what,
+                                count == 1 ? "" : "s");
+    };
+    add(errors, "error");
+    add(warnings, "warning");
+    if (text.empty()) return;
+    const ImU32 color = errors ? theme_.error : theme_.warning;
+    const float middle = std::round((box.low.y + box.high.y) / 2), r = theme_.px(4);
+    ImGui::SetCursorScreenPos({x, box.low.y});
+    if (ImGui::InvisibleButton(
+            "##told", {ImGui::CalcTextSize(text.c_str()).x + 4 * r, box.size().y}))
+        context_.show("findings");
+    command_tooltip("show_findings");
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddCircleFilled({x + r, middle}, r, color, 16);
+    list->AddText({x + 3 * r, std::round(middle - ImGui::GetFontSize() / 2)}, color, text.c_str());
+}
+
 void Ui::status_bar(const Box& box) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->AddRectFilled(box.low, box.high, IM_COL32(0x1a, 0x1b, 0x1e, 255));
@@ -250,6 +278,7 @@ void Ui::status_bar(const Box& box) {
             left += "   " + state.selection.node.substr(state.selection.node.rfind('/') + 1);
     }
     list->AddText({box.low.x + theme_.px(12), y}, theme_.dim, left.c_str());
+    tell_findings(box.low.x + theme_.px(28) + ImGui::CalcTextSize(left.c_str()).x, box);
     const std::string& value = viewport_.under_pointer();
     if (!value.empty()) {
         ImFont* mono = theme_.fonts.mono;

@@ -51,6 +51,7 @@ class Ui {
     void draw_area(Area area, const Box& box);
     void draw_panel(const char* name);
     void splitter(Area area, const Box& box);
+    void tell_findings(float x, const Box& box);
     void status_bar(const Box& box);
     void draw_toast(const Box& box);
 
