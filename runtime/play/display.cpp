@@ -218,9 +218,11 @@ void fast_8_bit(const raytrace::Film& film, ColorEncoding encoding, std::vector<
                 std::copy_n(image.rgba.begin(), 4, to);
                 continue;
             }
-            const float scale = p.w == 1 || !(p.w > 0) ? 1.0f : 1.0f / p.w;
+            const bool opaque = p.w == 1;
+            const float scale = opaque || !(p.w > 0) ? 1.0f : 1.0f / p.w;
             const std::array<uint8_t, 4> bytes{color(p.x * scale), color(p.y * scale),
-                                               color(p.z * scale), alpha(p.w)};
+                                               color(p.z * scale),
+                                               opaque ? uint8_t(255) : alpha(p.w)};
             std::memcpy(to, bytes.data(), 4);
         }
     });
