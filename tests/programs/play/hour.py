@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """tests/programs/play/hour.py [SECONDS [TRIANGLES]]: kinora-play plays and orbits for so long (an hour); its
-memory and its open files must not grow. Then a scene of so many triangles (ten million) is opened and left again.
-For scripts/nightly."""
+memory and its open files must not grow. Then a scene of so many triangles (ten million) is opened and left again;
+in a window too, where Escape leaves it while it is read. For scripts/nightly."""
 import os
 import re
 import subprocess
@@ -9,6 +9,9 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+import display as displays
+import x_probe
 
 SOURCE = Path(__file__).resolve().parents[3]
 BIN = Path(os.environ.get("KINORA_BIN_DIR", SOURCE / "build/release/bin"))
@@ -91,6 +94,30 @@ def many_triangles(folder):
     start = time.monotonic()
     subprocess.run([BIN / "kinora-play", scene, "--headless", "--script", script, "--size", "160x90", "--quality", "preview"], check=True)
     print(f"{2 * n * n} triangles: {time.monotonic() - start:.1f} s")
+    if not displays.missing() and not x_probe.missing():
+        in_a_window(scene)
+
+
+def in_a_window(scene):
+    """The window comes first, says what it does, and Escape ends that."""
+    with displays.Display(1280, 800) as display, x_probe.Hand(display) as hand:
+        # The seconds of reading are told in the middle; the longer welcome reaches to its left.
+        screen, middle, left = x_probe.Screen(display), (430, 300, 700, 450), (262, 300, 420, 450)
+        window = displays.Window(display, BIN / "kinora-play", scene)
+        print(f"its window after {1000 * (hand.until_mapped() - window.started):.0f} ms")
+        window.appear()
+        for _ in range(2):
+            if not screen.until_changed(middle, screen.rows(middle), 10):
+                sys.exit("nothing says that the scene is being read")
+        before = screen.rows(left, 1)
+        sent = hand.key("Escape")
+        ended = screen.until(lambda: screen.rows(left, 1) != before)
+        if not ended:
+            sys.exit("Escape does not leave the scene")
+        window.key("ctrl+q")
+        if window.process.wait(60) != 0:
+            sys.exit("it does not end after Escape")
+        print(f"left {1000 * (ended - sent):.0f} ms after Escape")
 
 
 with tempfile.TemporaryDirectory() as temporary:
