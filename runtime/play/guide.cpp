@@ -91,8 +91,8 @@ FourFloats likeness(const Place& here, const Place* const (&others)[4]) {
     const auto of_four = [&](auto&& of) {
         return FourFloats{of(*others[0]), of(*others[1]), of(*others[2]), of(*others[3])};
     };
-    const FourFloats is_same = of_four(
-        [&](const Place& other) { return other.surface == here.surface ? 1.0f : 0.0f; });
+    const FourFloats is_same =
+        of_four([&](const Place& other) { return other.surface == here.surface ? 1.0f : 0.0f; });
     if (here.surface == kNone) return is_same + kOther;
     FourFloats facing = of_four([&](const Place& other) { return glm::dot(here.Ng, other.Ng); });
     FourFloats apart = of_four([&](const Place& other) { return here.depth - other.depth; });

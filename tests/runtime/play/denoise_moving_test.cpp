@@ -1,9 +1,9 @@
-// tests/runtime/play/denoise_moving_test.cpp: a soft shadow that glides over a floor: the filter may
-// neither smear its edge nor leave a trail of it.
+// tests/runtime/play/denoise_moving_test.cpp: a soft shadow that glides over a floor: the filter
+// may neither smear its edge nor leave a trail of it.
 //
 // The same ten pictures are made many times by other random numbers. The mean of the filtered ones,
-// less the true picture, is what the filter does wrong whatever the noise: a trail is a share of what
-// the pictures before showed.
+// less the true picture, is what the filter does wrong whatever the noise: a trail is a share of
+// what the pictures before showed.
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -89,7 +89,8 @@ TEST(DenoiseMoving, AShadowLeavesNoTrail) {
         if (run == 0)
             for (size_t p = 0; p < now.size(); ++p) {
                 // The shadow's edge: the floor, where a picture's time changes it.
-                is_edge[p] = scene.hits().surface[p] == 0 && std::abs(now[p] - before[p]) > 0.008f &&
+                is_edge[p] = scene.hits().surface[p] == 0 &&
+                             std::abs(now[p] - before[p]) > 0.008f &&
                              std::abs(now[p] - before[p]) < 0.1f;
                 edges += is_edge[p];
             }
@@ -108,9 +109,11 @@ TEST(DenoiseMoving, AShadowLeavesNoTrail) {
         moved += change * change;
         bias += std::pow(mean[p] - now[p], 2);
     }
-    std::printf("%.0f pixels of the edge: RMSE %.4f, filtered %.4f; wrong on average %.4f; %.2f pictures late\n",
-                edges, std::sqrt(raw_error / edges), std::sqrt(shown_error / edges), std::sqrt(bias / edges),
-                lag / moved);
+    std::printf(
+        "%.0f pixels of the edge: RMSE %.4f, filtered %.4f; wrong on average %.4f; %.2f pictures "
+        "late\n",
+        edges, std::sqrt(raw_error / edges), std::sqrt(shown_error / edges),
+        std::sqrt(bias / edges), lag / moved);
     EXPECT_GT(edges, 100);
     EXPECT_LT(shown_error, 0.8 * raw_error);
     EXPECT_LT(lag / moved, 0.2);

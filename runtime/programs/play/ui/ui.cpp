@@ -254,8 +254,8 @@ void Ui::tell_findings(float x, const Box& box) {
     const ImU32 color = errors ? theme_.error : theme_.warning;
     const float middle = std::round((box.low.y + box.high.y) / 2), r = theme_.px(4);
     ImGui::SetCursorScreenPos({x, box.low.y});
-    if (ImGui::InvisibleButton(
-            "##told", {ImGui::CalcTextSize(text.c_str()).x + 4 * r, box.size().y}))
+    if (ImGui::InvisibleButton("##told",
+                               {ImGui::CalcTextSize(text.c_str()).x + 4 * r, box.size().y}))
         context_.show("findings");
     command_tooltip("show_findings");
     ImDrawList* list = ImGui::GetWindowDrawList();

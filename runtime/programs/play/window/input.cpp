@@ -87,7 +87,8 @@ void connect_input() {
     io.ConfigInputTextCursorBlink = false;  // a window at rest draws nothing
     g_pointers[ImGuiMouseCursor_Arrow] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_ARROW);
     g_pointers[ImGuiMouseCursor_TextInput] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_IBEAM);
-    g_pointers[ImGuiMouseCursor_ResizeAll] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEALL);
+    g_pointers[ImGuiMouseCursor_ResizeAll] =
+        sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEALL);
     g_pointers[ImGuiMouseCursor_ResizeNS] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZENS);
     g_pointers[ImGuiMouseCursor_ResizeEW] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_SIZEWE);
     g_pointers[ImGuiMouseCursor_Hand] = sdl().SDL_CreateSystemCursor(SDL_SYSTEM_CURSOR_HAND);

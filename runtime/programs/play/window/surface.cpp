@@ -26,8 +26,8 @@ void to_bgrx(const uint32_t* from, uint32_t* to, int count) {
     }
 }
 
-// Pages of new memory, all at once: the X server shares them, and a fault for each one took twice as
-// long (4 MB: 20.7 ms, now 9.1). Where the kernel cannot do it, nothing changes.
+// Pages of new memory, all at once: the X server shares them, and a fault for each one took twice
+// as long (4 MB: 20.7 ms, now 9.1). Where the kernel cannot do it, nothing changes.
 void map_pages([[maybe_unused]] const SDL_Surface& surface) {
 #ifdef MADV_POPULATE_WRITE
     const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
@@ -56,7 +56,8 @@ Surface::Surface(const std::string& title, const WindowBounds& bounds) {
             throw std::runtime_error("neither DISPLAY nor WAYLAND_DISPLAY leads to one");
         sdl().SDL_SetHint(SDL_HINT_VIDEODRIVER, "x11");
     }
-    if (sdl().SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) throw std::runtime_error(sdl().SDL_GetError());
+    if (sdl().SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
+        throw std::runtime_error(sdl().SDL_GetError());
     // SDL's last resort is a driver that shows nothing: only for those who name it.
     const std::string driver = sdl().SDL_GetCurrentVideoDriver();
     if ((driver == "offscreen" || driver == "dummy") && !std::getenv("SDL_VIDEODRIVER")) {
@@ -66,7 +67,7 @@ Surface::Surface(const std::string& title, const WindowBounds& bounds) {
     const auto flags = static_cast<uint32_t>(SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
                                              (bounds.maximized ? SDL_WINDOW_MAXIMIZED : 0));
     window_ = sdl().SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                               bounds.width, bounds.height, flags);
+                                     bounds.width, bounds.height, flags);
     if (!window_ || !sdl().SDL_GetWindowSurface(window_)) {
         const std::string reason = sdl().SDL_GetError();
         if (window_) sdl().SDL_DestroyWindow(window_);
@@ -103,7 +104,7 @@ void Surface::present() {
                     reinterpret_cast<uint32_t*>(to + y * surface->pitch), surface->w);
     } else {
         sdl().SDL_ConvertPixels(surface->w, surface->h, SDL_PIXELFORMAT_RGBA32, pixels_.data(),
-                          target_.width * 4, surface->format->format, to, surface->pitch);
+                                target_.width * 4, surface->format->format, to, surface->pitch);
     }
     if (SDL_MUSTLOCK(surface)) sdl().SDL_UnlockSurface(surface);
     sdl().SDL_UpdateWindowSurface(window_);

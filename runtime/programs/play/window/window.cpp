@@ -105,8 +105,8 @@ class WindowLoop {
         else if (seconds < 0)
             some = sdl().SDL_WaitEvent(&event);
         else
-            some = sdl().SDL_WaitEventTimeout(&event,
-                                        std::max(1, static_cast<int>(std::ceil(seconds * 1000))));
+            some = sdl().SDL_WaitEventTimeout(
+                &event, std::max(1, static_cast<int>(std::ceil(seconds * 1000))));
         const ImGuiIO& io = ImGui::GetIO();
         Batch batch(std::find(std::begin(io.MouseDown), std::end(io.MouseDown), true) !=
                     std::end(io.MouseDown));
