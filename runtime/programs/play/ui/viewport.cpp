@@ -247,9 +247,8 @@ void Viewport::overlay(Context& context, ImVec2 corner, ImVec2 size) {
         std::string text = "Drop a scene here: .dae .zae .kmz .gltf .glb";
         if (load == LoadState::Nothing)
             text =
-                "Welcome. Drop a scene here (.dae .zae .kmz .gltf .glb), or press Ctrl+O and type "
-                "its "
-                "name.";
+                "Welcome. Drop a scene here (.dae .zae .kmz .gltf .glb), "
+                "or press Ctrl+O and type its name.";
         if (load == LoadState::Loading) text = opening_text(context.player);
         if (load == LoadState::Ready) text = "Making the first picture";
         if (load == LoadState::Failed)
