@@ -44,8 +44,9 @@ std::string why_it_deforms(const Scene& scene, const Shape& shape) {
     if (shape.skin != kNone)
         add(fmt::format("skin '{}' of {} joints, {} influences of a vertex",
                         scene.description->skins[shape.skin].id, shape.joint_nodes.size(),
-                        scene.options.influences ? fmt::format("at most {}", scene.options.influences)
-                                                 : std::string("all")));
+                        scene.options.influences
+                            ? fmt::format("at most {}", scene.options.influences)
+                            : std::string("all")));
     if (shape.morph != kNone) add(fmt::format("a morph of {} targets", shape.morph_weights.size()));
     if (shape.vertex_work && shape.vertex_work->each_frame)
         add("its displacement reads what changes from frame to frame");

@@ -128,9 +128,10 @@ void SceneMaker::run() {
         std::unique_ptr<ShownScene> made = make(order);
         lock.lock();
         // Not again where it could not be made.
-        if (made && (made->scene || order.finer)) coarse_shown_ = made->scene && coarse_;
+        if (made && (made->scene || order.finer))
+            dicing_.coarse_shown = made->scene && dicing_.coarse;
         if (made) put(std::move(made));
-        if (coarse_shown_ && !order_) order_ = Order{.edits = built_with_, .finer = true};
+        if (dicing_.coarse_shown && !order_) order_ = Order{.edits = built_with_, .finer = true};
         working_ = false;
         step_ = Opening::Step::None;
         lock.unlock();
@@ -187,8 +188,8 @@ void SceneMaker::make(const Order& order, ShownScene& shown) {
     if (serial_ > 0) serial.emplace();  // the frames of the scene shown go first
     try {
         if (order.open) goes_on(Opening::Step::Reads);
-        const bool done = order.open ? !read(*order.open, shown)
-                                     : !order.finer && swap(order, shown);
+        const bool done =
+            order.open ? !read(*order.open, shown) : !order.finer && swap(order, shown);
         const auto step = order.finer ? Opening::Step::Dices : Opening::Step::Builds;
         if (!done && goes_on(step)) build(order, shown);
     } catch (const std::bad_alloc&) {
@@ -332,15 +333,15 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     EditedShaders shaders;
     if (!apply_edits(imported, edits, read_.request, diagnostics, &shaders)) return;
     SceneDescription edited = copy_without_geometry(imported).description;
-    coarse_ = begins_coarse(order);
-    if (coarse_) imported.options.dice = kCoarseDice;
+    dicing_.coarse = begins_coarse(order);
+    if (dicing_.coarse) imported.options.dice = kCoarseDice;
     BuildAgain again{{}, textures_, &overtaken_};
     BuiltScene built =
         build_imported(std::move(imported), diagnostics, order.finer ? &again : nullptr);
     shown.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
     if (!built.scene) return;
     shown.exit_code = kExitOk;
-    coarse_ = coarse_ && built.redicer;
+    dicing_.coarse = dicing_.coarse && built.redicer;
     // What is diced or exposed by itself depends on its shaders.
     swapper_.reset();
     if (!built.redicer && !read_.request.auto_exposure)
@@ -362,7 +363,8 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     info->serial = serial_ + 1;
     shown.info = std::move(info);
     shown.build_ms = watch.ms();
-    if (!coarse_) dices_fast_ = shown.scene->dice.triangles && shown.scene->dice.ms < kFastDiceMs;
+    if (!dicing_.coarse)
+        dicing_.is_fast = shown.scene->dice.triangles && shown.scene->dice.ms < kFastDiceMs;
     if (order.finer) pose(shown);
 }
 
@@ -376,7 +378,7 @@ void SceneMaker::pose(ShownScene& shown) const {
 bool SceneMaker::begins_coarse(const Order& order) const {
     const SceneOptions& options = read_.scene->options;
     if (!hurries_ || order.finer || options.dice >= kCoarseDice) return false;
-    const bool fast = dices_fast_ && !order.open;
+    const bool fast = dicing_.is_fast && !order.open;
     return !fast && may_dice(read_.scene->description, options);
 }
 

@@ -105,9 +105,11 @@ class SceneMaker {
     EditedShaders shaders_;
     std::shared_ptr<TextureStore> textures_;  // of the scene built last
     std::shared_ptr<const SceneInfo> info_;
-    bool coarse_ = false;        // the scene built last
-    bool coarse_shown_ = false;  // the last good one
-    bool dices_fast_ = false;    // the last one that was not coarse
+    struct Dicing {
+        bool coarse = false;        // the scene built last
+        bool coarse_shown = false;  // the last good one
+        bool is_fast = false;       // of the last one that was not coarse
+    } dicing_;
     uint64_t serial_ = 0;
     int swaps_ = 0;  // so far
     std::thread thread_;

@@ -99,7 +99,8 @@ class Labels {
         double left, y, width;
     };
     static bool meet(const Box& a, const Box& b) {
-        return a.left < b.left + b.width && b.left < a.left + a.width && std::abs(a.y - b.y) < kLine;
+        return a.left < b.left + b.width && b.left < a.left + a.width &&
+               std::abs(a.y - b.y) < kLine;
     }
     std::vector<Box> placed_;
 };
