@@ -173,7 +173,6 @@ std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
     const bool good = shown && (shown->scene || shown->swapped);
     if (before && !good) {
         read_ = std::move(*before);
-        built_with_ = {};
         swapper_.reset();  // the next edit builds
     }
     if (!good) return shown;

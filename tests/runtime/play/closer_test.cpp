@@ -1,5 +1,6 @@
-// tests/runtime/play/closer_test.cpp: displaced meshes are diced again while the camera comes closer,
-// between pictures that are not refined. The oracle is the refined picture of the same view.
+// tests/runtime/play/closer_test.cpp: displaced meshes are diced again while the camera comes
+// closer, between pictures that are not refined. The oracle is the refined picture of the same
+// view.
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,10 +23,12 @@ constexpr const char* kHills =
 std::string floor_file(bool two = false) {
     SceneText scene;
     scene.cameras =
-        "<camera id=\"eye\"><optics><technique_common><perspective><xfov>50</xfov><znear>0.01</znear>"
+        "<camera "
+        "id=\"eye\"><optics><technique_common><perspective><xfov>50</xfov><znear>0.01</znear>"
         "<zfar>100</zfar></perspective></technique_common></optics></camera>";
     scene.camera_node =
-        "<node id=\"eye-node\"><translate>0.3 0.2 30</translate><instance_camera url=\"#eye\"/></node>";
+        "<node id=\"eye-node\"><translate>0.3 0.2 30</translate><instance_camera "
+        "url=\"#eye\"/></node>";
     scene.square("floor", 2).look("look", kHills, kDisplaced).place("floor", "look");
     if (two) scene.place("floor", "look", "<translate>0 0 -1</translate>", "low");
     const std::string file =
@@ -119,6 +122,23 @@ TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
     EXPECT_EQ(parts.back()->edits, edits);
     EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
     std::filesystem::remove(file);
+}
+
+// Nor does another file that cannot be opened; the edits are kept.
+TEST(Coarse, AFailedOpeningLeavesTheFinerSceneItsEdits) {
+    const std::string file = floor_file(true);
+    SceneEdits edits;
+    edits.hidden = {"low"};
+    SceneMaker maker([] {}, true, false);
+    maker.open(small_request(file), edits, true);
+    while (maker.counts().scenes == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    maker.open(small_request(file + ".missing"), {}, true);
+    auto made = all_made(maker);
+    std::filesystem::remove(file);
+    std::erase_if(made, [](const auto& one) { return !one->scene; });
+    ASSERT_FALSE(made.empty());
+    EXPECT_EQ(made.back()->edits, edits);
+    EXPECT_EQ(made.back()->scene->dice.pixels, 1);
 }
 
 // A text that cannot be compiled is told, and the scene becomes finer without it.
