@@ -14,6 +14,7 @@
 #include "runtime/description/findings.h"
 #include "runtime/shading/scene_host.h"
 #include "runtime/vertices/vertex_columns_p.h"
+#include "runtime/vertices/weld.h"
 
 namespace kinora {
 
