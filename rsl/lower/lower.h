@@ -77,6 +77,7 @@ struct LoweredShader {
     bool uses_lights = false;  // reads record set 0
     uint8_t lit_sides = 0;     // LitSide of all its loops that see lights with a direction
     bool uses_rng = false;
+    bool draws_random = false;  // random() itself
     // Displacements and transformations: whether P, N as they leave them can differ from the input.
     bool moves_P = false, bends_N = false;
     // Oi's class (docs/decisions.md#opacity), judged from the IR: 1 always, constant, or computed

@@ -119,7 +119,7 @@ std::array<Value, 2> SampleSeeds::sample(uint32_t site) {
 // docs/decisions.md#random-numbers-without-state: a hash of the sample, the site of the call and
 // the loop iterations.
 Value SampleSeeds::random01(const CallExpr& call, int component) {
-    context_.out.uses_rng = true;
+    context_.out.uses_rng = context_.out.draws_random = true;
     uint32_t site = call.site * 40503u + uint32_t(component);
     Value path = b_.imul(path_value(), b_.i(int32_t(2654435761u)));
     std::vector<Value> keys = {rng_input(b_), b_.ixor(path, b_.i(int32_t(site)))};

@@ -160,11 +160,15 @@ void HitShader::count_dark(const Grid& grid, const raytrace::ShadeResult& result
 
 namespace {
 
-// Whether a kernel calls services whose rays can be collected.
-bool collects(const ShaderInstance& look) {
-    static const jit::ServiceFn fns[] = {find_service("trace"), find_service("indirectdiffuse")};
-    return std::any_of(look.full.services.begin(), look.full.services.end(),
-                       [](jit::ServiceFn fn) { return fn == fns[0] || fn == fns[1]; });
+// Whether the grid's kernel calls services that send rays from this depth, which can be collected.
+bool collects(const Grid& grid) {
+    static const jit::ServiceFn trace = find_service("trace"),
+                                diffuse = find_service("indirectdiffuse");
+    const bool bounces = grid.ray.diffuse < grid.frame.diffuse_depth;
+    return grid.depth < grid.frame.ray_depth &&
+           std::ranges::any_of(grid.look->full.services, [&](jit::ServiceFn fn) {
+               return fn == trace || (bounces && fn == diffuse);
+           });
 }
 
 }  // namespace
@@ -173,11 +177,11 @@ bool collects(const ShaderInstance& look) {
 void HitShader::collect(std::span<Grid* const> grids, RayCollector& rays) {
     size_t points = 0;
     for (const Grid* grid : grids)
-        if (collects(*grid->look)) points += grid->count();
-    if (points <= jit::kMaxLanes || grids[0]->depth >= frame_.ray_depth || frame_.stopped()) return;
+        if (collects(*grid)) points += grid->count();
+    if (points <= jit::kMaxLanes || frame_.stopped()) return;
     rays.start();
     for (Grid* grid : grids) {
-        if (!collects(*grid->look)) continue;
+        if (!collects(*grid)) continue;
         grid->collector = &rays;
         kernels_.run_noting(*grid);
     }

@@ -287,6 +287,7 @@ void LightRecords::plain_records(Making& making, size_t l) {
         std::fill(lit.record_sets.begin(), lit.record_sets.end(), jit::RecordSet{});
     }
     lit.columns = light_columns(look, frame_.scene, light, at, arena);
+    if (look.lowered.draws_random) lit.note_random();
     std::span<float*> out = kernels_.run(look.full, lit);
     grid.memory.counters.light_points += at.count;
     for (const LightOutputs& statement : bindings_.statements(l))
@@ -306,7 +307,10 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     const float* angle = out[size_t(statement.spread)];
     const bool wide =
         statement.L[0] >= 0 && std::any_of(angle, angle + at.count, [](float a) { return a != 0; });
-    if (!wide) make_record(making, statement, binding, out, false, nullptr);
+    if (wide)
+        making.grid.note_random();
+    else
+        make_record(making, statement, binding, out, false, nullptr);
     std::span<float*> rows = arena.allocate_span<float*>(out.size());
     SkyCones cones{at.count, {}, angle, at.rng, raytrace::hash(uint32_t(l), frame_.seed)};
     for (size_t c = 0; wide && c < 3; ++c) cones.axis[c] = out[size_t(statement.L[c])];
