@@ -62,8 +62,7 @@ void find_coordinates(const DiffuseMap& map, const FirstHits& hits, size_t hit, 
         const float u = hits.u[from], v = hits.v[from], share[3] = {1 - u - v, u, v};
         to.s[lane] = to.t[lane] = 0;
         for (size_t k = 0; k < 3; ++k) {
-            const float* st =
-                &map.st->values[size_t(map.st->corners[corner + k]) * map.st->stride];
+            const float* st = &map.st->values[size_t(map.st->corners[corner + k]) * map.st->stride];
             to.s[lane] += share[k] * st[0];
             to.t[lane] += share[k] * st[1];
         }
@@ -106,8 +105,7 @@ void fill_albedo(const Scene& scene, const FirstHits& hits, Planes& planes) {
                     if (planes.variance[to + size_t(k)] > 0 && maps[row]) textured |= 1u << k;
                 }
                 while (textured) {
-                    const uint32_t row =
-                        planes.surface[to + size_t(std::countr_zero(textured))];
+                    const uint32_t row = planes.surface[to + size_t(std::countr_zero(textured))];
                     uint32_t alike = 0;
                     for (uint32_t rest = textured; rest; rest &= rest - 1)
                         if (planes.surface[to + size_t(std::countr_zero(rest))] == row)

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <utility>
 
-#include "runtime/base/parallel.h"
 #include "runtime/play/denoise/kernels.h"
 
 namespace kinora {
@@ -13,15 +12,6 @@ namespace kinora {
 namespace {
 
 constexpr float kUnseen = 1e-7f;  // variance of linear light that no eye finds
-
-// Calls see(index of its first pixel) for each stretch of kFilterRun pixels.
-template <class See>
-void each_stretch(const Planes& planes, See&& see) {
-    parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
-        for (size_t y = begin; y < end; ++y)
-            for (int x = 0; x < planes.width; x += int(kFilterRun)) see(planes.at(x, int(y)));
-    });
-}
 
 void copy_run(const std::vector<float>& from, std::vector<float>& to, size_t at) {
     std::memcpy(&to[at], &from[at], kFilterRun * sizeof(float));
@@ -57,9 +47,9 @@ void AtrousFilter::pass(Planes& planes) {
                                 {&planes.slope[0][at], &planes.slope[1][at]},
                                 &planes.albedo[at],
                                 &planes.surface[at]};
-        const FilterColors from{{&planes.c[0][at], &planes.c[1][at], &planes.c[2][at],
-                                 &planes.c[3][at]},
-                                &planes.variance[at]};
+        const FilterColors from{
+            {&planes.c[0][at], &planes.c[1][at], &planes.c[2][at], &planes.c[3][at]},
+            &planes.variance[at]};
         const FilterResult to{{&c_[0][at], &c_[1][at], &c_[2][at], &c_[3][at]}, &variance_[at]};
         kernels.pass(guide, from, step_, planes.stride, to);
     });

@@ -7,22 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <map>
 
 #include "runtime/base/parallel.h"
+#include "runtime/play/denoise/history_kernels.h"
 
 namespace kinora {
 
 namespace {
-
-constexpr float kSamePlane = 0.05f;  // share of the depth
-constexpr float kSameWay = 0.8f;     // cosine between normals
-constexpr float kMostCount = 64;
-
-float brightness(float r, float g, float b) {
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
 
 // The place on a triangle between three vertices.
 vec3 mixed(std::span<const vec4> vertices, std::span<const uint32_t> triangles, uint32_t primitive,
@@ -32,7 +24,22 @@ vec3 mixed(std::span<const vec4> vertices, std::span<const uint32_t> triangles, 
            v * vec3(vertices[corner[2]]);
 }
 
+bool is_noisy(const Planes& planes, size_t at) {
+    return filter_kernels().exceeds(&planes.variance[at], 0);
+}
+
+SeenRows rows_of(const std::vector<float> (&c)[4], const Moments& moments, size_t at) {
+    return {{&c[0][at], &c[1][at], &c[2][at], &c[3][at]},
+            &moments.first[at],
+            &moments.second[at],
+            &moments.count[at]};
+}
+
 }  // namespace
+
+void Moments::resize(size_t size) {
+    for (auto* plane : {&first, &second, &count}) plane->resize(size);
+}
 
 // Where the point of the surface was at the picture before, accel space.
 vec3 History::place_before(const Scene& scene, const FirstHits& hits, size_t hit) const {
@@ -48,178 +55,96 @@ vec3 History::place_before(const Scene& scene, const FirstHits& hits, size_t hit
     return instanced ? vec3(dvec3(accel_from_local_[row] * dvec4(dvec3(place), 1.0))) : place;
 }
 
-// What the picture before has at a place, between its pixels; nothing where it shows others there.
-std::optional<History::Seen> History::find(vec3 P, vec3 N, uint32_t surface) const {
-    const dvec3 from = dvec3(P) - camera_.eye;
-    const double z = glm::dot(from, camera_.forward);
-    if (!(z > 0) && !camera_.orthographic) return std::nullopt;
-    const dvec3 across = camera_.orthographic ? from : from / z;
-    const double x = glm::dot(across, camera_.raster_dx) /
-                         glm::dot(camera_.raster_dx, camera_.raster_dx) +
-                     0.5 * camera_.width - 0.5,
-                 y = glm::dot(across, camera_.raster_dy) /
-                         glm::dot(camera_.raster_dy, camera_.raster_dy) +
-                     0.5 * camera_.height - 0.5;
-    if (!(x > -1 && y > -1 && x < before_.width && y < before_.height)) return std::nullopt;
-    const int left = int(std::floor(x)), top = int(std::floor(y));
-    const float depth = float(camera_.orthographic ? z : 1 / z);
-    Seen sum;
-    float weights = 0;
-    for (int k = 0; k < 4; ++k) {
-        const int column = left + (k & 1), row = top + (k >> 1);
-        const size_t at = before_.at(column, row);  // the border is of no surface
-        if (before_.surface[at] != surface) continue;
-        const float right = float(x - column), below = float(y - row);
-        const float expected =
-            before_.depth[at] + before_.slope[0][at] * right + before_.slope[1][at] * below;
-        if (std::abs(expected - depth) > kSamePlane * std::abs(depth)) continue;
-        const vec3 other(before_.N[0][at], before_.N[1][at], before_.N[2][at]);
-        if (glm::dot(other, N) < kSameWay) continue;
-        const float weight = (1 - std::abs(right)) * (1 - std::abs(below));
-        for (int c = 0; c < 4; ++c) sum.c[c] += weight * before_.c[c][at];
-        sum.first += weight * moments_before_.first[at];
-        sum.second += weight * moments_before_.second[at];
-        sum.count += weight * moments_before_.count[at];
-        weights += weight;
-    }
-    if (weights < 0.05f) return std::nullopt;
-    for (float& c : sum.c) c /= weights;
-    sum.first /= weights;
-    sum.second /= weights;
-    sum.count /= weights;
-    return sum;
+// Where a place is in the picture before.
+void History::find(vec3 P, Places& places, size_t i) const {
+    const dvec3 from = dvec3(P) - view_.eye;
+    const double z = glm::dot(from, view_.forward), inverse = view_.parallel ? 1 : 1 / z;
+    if (!(z > 0) && !view_.parallel) return;
+    places.x[i] = float(glm::dot(from, view_.right) * inverse + view_.center.x);
+    places.y[i] = float(glm::dot(from, view_.down) * inverse + view_.center.y);
+    places.depth[i] = float(view_.parallel ? z : inverse);
 }
 
-// What mirrors show, and shadows, does not move with the surface: a color from before lies within
-// what the surface shows about the pixel now, as temporal anti-aliasing has it (Salvi 2016,
-// variance clipping).
-void History::clip(Seen& before, size_t at, const Planes& planes) const {
-    constexpr float kDeviations = 1.0f;
-    float sum[4] = {}, squares[4] = {}, count = 0;
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-            const size_t near = size_t(ptrdiff_t(at) + dy * ptrdiff_t(planes.stride) + dx);
-            if (planes.surface[near] != planes.surface[at]) continue;
-            for (int k = 0; k < 4; ++k) {
-                sum[k] += fresh_[k][near];
-                squares[k] += fresh_[k][near] * fresh_[k][near];
-            }
-            count += 1;
-        }
-    for (int k = 0; k < 4; ++k) {
-        const float mean = sum[k] / count;
-        const float about =
-            kDeviations * std::sqrt(std::max(squares[k] / count - mean * mean, 0.0f));
-        before.c[k] = std::clamp(before.c[k], mean - about, mean + about);
+void History::look_back(const Scene& scene, const FirstHits& hits, size_t at,
+                        const Planes& planes) {
+    const size_t y = at / size_t(planes.stride) - Planes::kBorder,
+                 x = at % size_t(planes.stride) - Planes::kBorder;
+    const size_t hit = y * size_t(planes.width) + x;
+    Places places;
+    for (size_t i = 0; i < kFilterRun; ++i) {
+        places.x[i] = places.y[i] = -1;
+        places.depth[i] = 0;
+        if (planes.variance[at + i] > 0) find(place_before(scene, hits, hit + i), places, i);
     }
-    const float spread = before.second - before.first * before.first;
-    before.first = brightness(before.c[0], before.c[1], before.c[2]);
-    before.second = spread + before.first * before.first;
+    const Planes& before = before_;
+    const size_t origin = before.at(0, 0);
+
+    history_kernels().look_back({before.width,
+                                 before.height,
+                                 before.stride,
+                                 &before.surface[origin],
+                                 {&before.N[0][origin], &before.N[1][origin], &before.N[2][origin]},
+                                 &before.depth[origin],
+                                 {&before.slope[0][origin], &before.slope[1][origin]},
+                                 rows_of(before.c, moments_before_, origin)},
+                                {places.x,
+                                 places.y,
+                                 places.depth,
+                                 &planes.surface[at],
+                                 {&planes.N[0][at], &planes.N[1][at], &planes.N[2][at]}},
+                                {{&seen_[0][at], &seen_[1][at], &seen_[2][at], &seen_[3][at]},
+                                 &seen_moments_.first[at],
+                                 &seen_moments_.second[at],
+                                 &seen_moments_.count[at]});
 }
 
-// The share that the new picture's color is to have for what has changed: a shadow that glides over
-// a surface leaves no trail. The nine pixels' differences from what was seen there have a mean, the
-// change, and a spread, the noise. The share makes the error least that both leave together. A mean
-// that noise alone may have says nothing.
-float History::share_of_change(size_t at, const Planes& planes) const {
-    constexpr float kByChance = 2;  // times the variance of a mean
-    float sum = 0, squares = 0, count = 0;
-    for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-            const size_t near = size_t(ptrdiff_t(at) + dy * ptrdiff_t(planes.stride) + dx);
-            if (planes.surface[near] != planes.surface[at] || !(seen_[near].count >= 1)) continue;
-            const float change = brightness(fresh_[0][near], fresh_[1][near], fresh_[2][near]) -
-                                 brightness(seen_[near].c[0], seen_[near].c[1], seen_[near].c[2]);
-            sum += change;
-            squares += change * change;
-            count += 1;
-        }
-    if (count < 3) return 0;
-    const float mean = sum / count, noise = std::max(squares / count - mean * mean, 1e-12f);
-    const float change = mean * mean - kByChance * noise / count;
-    return change > 0 ? change / (change + noise) : 0;
-}
-
-void History::blend_pixel(Seen before, size_t at, Planes& planes) {
-    const float bright = brightness(planes.c[0][at], planes.c[1][at], planes.c[2][at]);
-    float count = 1, first = bright, second = bright * bright;
-    if (before.count >= 1) {
-        const float changed = share_of_change(at, planes);
-        clip(before, at, planes);
-        count = std::min({before.count + 1, kMostCount, 1 / std::max(changed, 1e-6f)});
-        const float share = std::max(1 / count, kNewest);
-        for (int k = 0; k < 4; ++k)
-            planes.c[k][at] = before.c[k] + share * (planes.c[k][at] - before.c[k]);
-        first = before.first + share * (first - before.first);
-        second = before.second + share * (second - before.second);
-    }
-    moments_.count[at] = count;
-    moments_.first[at] = first;
-    moments_.second[at] = second;
-}
-
-// Variance of the brightness of the pixels of its surface around one, before they are mixed: the
-// least of four squares it is the corner of, since one of them does not cross the edge of a shadow.
-float History::spread_around(const Planes& planes, int x, int y) const {
-    constexpr float kLeastOfFour = 1.6f;  // what the least of four estimates is short of their mean
-    const uint32_t surface = planes.surface[planes.at(x, y)];
-    float least = std::numeric_limits<float>::infinity();
-    for (int way = 0; way < 4; ++way) {
-        float sum = 0, squares = 0, count = 0;
-        for (int dy = 0; dy <= 2; ++dy)
-            for (int dx = 0; dx <= 2; ++dx) {
-                const size_t at = planes.at(x + (way & 1 ? dx : -dx), y + (way & 2 ? dy : -dy));
-                if (planes.surface[at] != surface) continue;
-                sum += moments_.first[at];
-                squares += moments_.second[at];
-                count += 1;
-            }
-        const float mean = sum / count;
-        if (count > 3) least = std::min(least, std::max(squares / count - mean * mean, 0.0f));
-    }
-    return std::isfinite(least) ? kLeastOfFour * least : 0;
+// Pixels without a variance have seen nothing, and say nothing.
+void History::mix(Planes& planes) {
+    const HistoryKernels& kernels = history_kernels();
+    std::ranges::fill(moments_.count, 0.0f);
+    each_stretch(planes, [&](size_t at) {
+        if (!is_noisy(planes, at)) return;
+        kernels.blend({&planes.surface[at],
+                       &planes.variance[at],
+                       {&fresh_[0][at], &fresh_[1][at], &fresh_[2][at], &fresh_[3][at]},
+                       rows_of(seen_, seen_moments_, at),
+                       {&planes.c[0][at], &planes.c[1][at], &planes.c[2][at], &planes.c[3][at]},
+                       &moments_.first[at],
+                       &moments_.second[at],
+                       &moments_.count[at]},
+                      planes.stride);
+    });
+    each_stretch(planes, [&](size_t at) {
+        if (is_noisy(planes, at))
+            kernels.find_variance(&planes.surface[at], rows_of(fresh_, moments_, at), planes.stride,
+                                  &planes.variance[at]);
+    });
 }
 
 void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
-    for (auto* plane : {&moments_.first, &moments_.second, &moments_.count})
-        plane->resize(planes.surface.size());
+    const size_t size = planes.surface.size();
+    for (Moments* moments : {&moments_, &seen_moments_}) moments->resize(size);
+    for (auto& plane : seen_) plane.resize(size);
     const bool known = known_ && accel_from_local_.size() == scene.geometry.size();
+    for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
+    std::ranges::fill(seen_moments_.count, 0.0f);
     if (known)
-        for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
-    seen_.assign(planes.surface.size(), {});
-    const auto each_noisy = [&](auto&& see) {
-        parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
-            for (size_t y = begin; y < end; ++y)
-                for (int x = 0; x < planes.width; ++x) {
-                    const size_t at = planes.at(x, int(y));
-                    if (planes.variance[at] > 0) see(x, int(y), at);
-                }
+        each_stretch(planes, [&](size_t at) {
+            if (is_noisy(planes, at)) look_back(scene, hits, at, planes);
         });
-    };
-    if (known)
-        each_noisy([&](int x, int y, size_t at) {
-            const vec3 N(planes.N[0][at], planes.N[1][at], planes.N[2][at]);
-            const size_t hit = size_t(y) * size_t(planes.width) + size_t(x);
-            if (auto seen = find(place_before(scene, hits, hit), N, planes.surface[at]))
-                seen_[at] = *seen;
-        });
-    std::fill(moments_.count.begin(), moments_.count.end(), 0.0f);
-    each_noisy([&](int, int, size_t at) { blend_pixel(seen_[at], at, planes); });
-    each_noisy([&](int x, int y, size_t at) {
-        const float count = moments_.count[at], first = moments_.first[at];
-        float spread = spread_around(planes, x, y);
-        if (count >= kFew)
-            spread = std::min(spread, std::max(moments_.second[at] - first * first, 0.0f));
-        // Of the mixture: of so many samples of equal share, or of ever smaller ones.
-        const float of_mixture = std::max(1 / count, kNewest / (2 - kNewest));
-        planes.variance[at] = std::max(spread * of_mixture, 1e-12f);
-    });
+    mix(planes);
 }
 
 void History::keep(const Scene& scene, Planes& planes) {
     std::swap(before_, planes);
     std::swap(moments_before_, moments_);
-    camera_ = scene.view;
+    const raytrace::Camera& camera = scene.view;
+    view_ = {camera.eye,
+             camera.forward,
+             camera.raster_dx / glm::dot(camera.raster_dx, camera.raster_dx),
+             camera.raster_dy / glm::dot(camera.raster_dy, camera.raster_dy),
+             0.5 * dvec2(camera.width, camera.height) - 0.5,
+             camera.orthographic};
     keep_places(scene);
     known_ = true;
 }

@@ -1,7 +1,6 @@
 // runtime/play/denoise/history.h: what the pictures before have shown of each place.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "runtime/play/denoise/planes.h"
@@ -12,6 +11,8 @@ namespace kinora {
 struct Moments {
     std::vector<float> first, second;  // means of the brightness and of its square, newer ones more
     std::vector<float> count;          // samples, one a picture
+
+    void resize(size_t size);
 };
 
 class History {
@@ -19,33 +20,36 @@ class History {
     void forget() { known_ = false; }
 
     // Mixes into the colors of pixels with a variance what was seen there before, and sets that
-    // variance: of the brightness, as the mixture has it. Where less than kFew pictures say so, by
-    // the pixels around.
+    // variance: of the brightness, as the mixture has it (history_kernels.h).
     void blend(const Scene& scene, const FirstHits& hits, Planes& planes);
     // These colors are what the next picture finds. The planes become those of the picture before.
     void keep(const Scene& scene, Planes& planes);
 
-    static constexpr float kNewest = 0.2f;  // the least share of the newest picture
-    static constexpr float kFew = 4;
-
   private:
-    struct Seen {
-        float c[4] = {}, first = 0, second = 0, count = 0;
+    // Of the picture before, the camera: how it sees a place, in pixels.
+    struct View {
+        dvec3 eye{0.0}, forward{0.0}, right{0.0}, down{0.0};
+        dvec2 center{0.0};
+        bool parallel = false;
+    };
+    // Of a stretch, in that picture.
+    struct Places {
+        alignas(64) float x[kFilterRun], y[kFilterRun], depth[kFilterRun];
     };
     vec3 place_before(const Scene& scene, const FirstHits& hits, size_t hit) const;
-    std::optional<Seen> find(vec3 P, vec3 N, uint32_t surface) const;
-    void clip(Seen& before, size_t at, const Planes& planes) const;
-    float share_of_change(size_t at, const Planes& planes) const;
-    void blend_pixel(Seen before, size_t at, Planes& planes);
-    float spread_around(const Planes& planes, int x, int y) const;
+    void find(vec3 P, Places& places, size_t i) const;
+    void look_back(const Scene& scene, const FirstHits& hits, size_t at, const Planes& planes);
+    void mix(Planes& planes);
     void keep_places(const Scene& scene);
 
     bool known_ = false;
     Planes before_;
     std::vector<float> fresh_[4];  // colors before they are mixed
-    std::vector<Seen> seen_;       // what the picture before has; count 0: nothing
+    // What the picture before has where the new one looks; count 0: nothing.
+    std::vector<float> seen_[4];
+    Moments seen_moments_;
     Moments moments_, moments_before_;
-    raytrace::Camera camera_;
+    View view_;
     // Of each row of Scene::geometry: the matrix of instanced ones, the vertices of deforming ones.
     std::vector<dmat4> accel_from_local_;
     std::vector<std::vector<vec4>> vertices_;

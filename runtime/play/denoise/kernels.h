@@ -17,11 +17,11 @@ inline constexpr size_t kFilterRun = 64;  // pixels that a kernel does at once
 // What lies at each pixel: pointers to the first pixel of the stretch, in planes with a border as
 // wide as the widest step.
 struct FilterGuide {
-    const float* N[3];         // length 1, or 0 where there is none
-    const float* depth;        // linear over the picture on a plane (Planes::depth)
-    const float* slope[2];     // its change from a pixel to the next one, and to the one below
-    const float* albedo;       // brightness of the diffuse texture; 0 where there is none
-    const uint32_t* surface;   // pixels of different ones are never mixed
+    const float* N[3];        // length 1, or 0 where there is none
+    const float* depth;       // linear over the picture on a plane (Planes::depth)
+    const float* slope[2];    // its change from a pixel to the next one, and to the one below
+    const float* albedo;      // brightness of the diffuse texture; 0 where there is none
+    const uint32_t* surface;  // pixels of different ones are never mixed
 };
 
 // The colors of a pass and the variance of their brightness.

@@ -3,6 +3,8 @@
 // rounds once and in the same order, so all widths give the same bits.
 #pragma once
 
+#include <utility>
+
 #include "runtime/play/denoise/kernels.h"
 
 namespace kinora {
@@ -21,79 +23,91 @@ constexpr float kOtherAlbedo = 400;  // by its square
 constexpr float kNoise = 1 / 6.0f;   // one over the square of the deviations that noise has
 constexpr float kLeastVariance = 1e-7f;
 
+// A pixel's sums, which stay in registers.
 struct Sums {
-    alignas(64) Row c[4];
-    alignas(64) Row weight, variance;
+    float r, g, b, a, variance, weight;
 };
 
 // What does not depend on the other pixel.
 struct Here {
-    alignas(64) Row bright, by_noise, by_depth;
+    float nx, ny, nz, depth, along_x, along_y, albedo;
+    float bright, by_noise, by_depth;
+    uint32_t surface;
 };
 
+// Tap `number` of nine, row by row; the pixel itself is 4.
+template <int number>
 __attribute__((always_inline)) inline void add_tap(const FilterGuide& g, const FilterColors& from,
-                                                   const Here& here, float share, float right,
-                                                   float below, ptrdiff_t at, Sums& sums) {
-    const float *nx = g.N[0], *ny = g.N[1], *nz = g.N[2], *depth = g.depth, *albedo = g.albedo;
-    const float *along_x = g.slope[0], *along_y = g.slope[1];
-    const uint32_t* surface = g.surface;
-    const float *r = from.c[0] + at, *green = from.c[1] + at, *b = from.c[2] + at,
-                *a = from.c[3] + at, *variance = from.variance + at;
-    const float *nx2 = nx + at, *ny2 = ny + at, *nz2 = nz + at, *depth2 = depth + at,
-                *albedo2 = albedo + at;
-    const uint32_t* surface2 = surface + at;
-    for (size_t i = 0; i < kRun; ++i) {
-        float facing = nx[i] * nx2[i] + ny[i] * ny2[i] + nz[i] * nz2[i];
-        facing = facing > 0 ? facing : 0;
-        facing *= facing;
-        facing *= facing;
-        facing *= facing;
-        facing *= facing;
-        facing *= facing;
-        const float apart =
-            (depth2[i] - depth[i] - along_x[i] * right - along_y[i] * below) * here.by_depth[i];
-        const float texture = albedo2[i] - albedo[i];
-        const float bright = brightness(r[i], green[i], b[i]) - here.bright[i];
-        const float unlike = (1 + apart * apart) * (1 + kOtherAlbedo * texture * texture) *
-                             (1 + bright * bright * here.by_noise[i]);
-        const float like = share * facing / unlike;
-        const float weight = surface2[i] == surface[i] ? like : 0;
-        sums.c[0][i] += weight * r[i];
-        sums.c[1][i] += weight * green[i];
-        sums.c[2][i] += weight * b[i];
-        sums.c[3][i] += weight * a[i];
-        sums.variance[i] += weight * weight * variance[i];
-        sums.weight[i] += weight;
-    }
+                                                   const Here& here, int step, ptrdiff_t stride,
+                                                   size_t i, Sums& sums) {
+    constexpr int x = number % 3 - 1, y = number / 3 - 1;
+    constexpr float share = x && y ? 0.0625f : 0.125f;
+    if (x == 0 && y == 0) return;
+    const ptrdiff_t at = (y * stride + x) * step + ptrdiff_t(i);
+    float facing = here.nx * g.N[0][at] + here.ny * g.N[1][at] + here.nz * g.N[2][at];
+    facing = facing > 0 ? facing : 0;
+    facing *= facing;
+    facing *= facing;
+    facing *= facing;
+    facing *= facing;
+    facing *= facing;
+    const float right = float(x * step), below = float(y * step);
+    const float apart =
+        (g.depth[at] - here.depth - here.along_x * right - here.along_y * below) * here.by_depth;
+    const float texture = g.albedo[at] - here.albedo;
+    const float r = from.c[0][at], green = from.c[1][at], b = from.c[2][at];
+    const float bright = brightness(r, green, b) - here.bright;
+    const float unlike = (1 + apart * apart) * (1 + kOtherAlbedo * texture * texture) *
+                         (1 + bright * bright * here.by_noise);
+    const float like = share * facing / unlike;
+    const float weight = g.surface[at] == here.surface ? like : 0;
+    sums.r += weight * r;
+    sums.g += weight * green;
+    sums.b += weight * b;
+    sums.a += weight * from.c[3][at];
+    sums.variance += weight * weight * from.variance[at];
+    sums.weight += weight;
 }
 
-void pass(const FilterGuide& g, const FilterColors& from, int step, ptrdiff_t stride,
-          const FilterResult& to) {
-    Here here;
-    Sums sums;
-    const float *r = from.c[0], *green = from.c[1], *b = from.c[2];
+template <int... number>
+__attribute__((always_inline)) inline void add_taps(std::integer_sequence<int, number...>,
+                                                    const FilterGuide& g, const FilterColors& from,
+                                                    const Here& here, int step, ptrdiff_t stride,
+                                                    size_t i, Sums& sums) {
+    (add_tap<number>(g, from, here, step, stride, i, sums), ...);
+}
+
+void pass(const FilterGuide& guide, const FilterColors& colors, int step, ptrdiff_t stride,
+          const FilterResult& result) {
+    const FilterGuide g = guide;
+    const FilterColors from = colors;
+    const FilterResult to = result;
+#pragma GCC ivdep
     for (size_t i = 0; i < kRun; ++i) {
-        here.bright[i] = brightness(r[i], green[i], b[i]);
-        here.by_noise[i] = kNoise / (from.variance[i] + kLeastVariance);
+        const float r = from.c[0][i], green = from.c[1][i], b = from.c[2][i], a = from.c[3][i],
+                    variance = from.variance[i];
         const float depth = g.depth[i] < 0 ? -g.depth[i] : g.depth[i];
-        here.by_depth[i] = kOtherDepth / (depth + 1e-30f);
-        // The pixel itself.
-        for (int k = 0; k < 4; ++k) sums.c[k][i] = 0.25f * from.c[k][i];
-        sums.variance[i] = 0.0625f * from.variance[i];
-        sums.weight[i] = 0.25f;
-    }
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            if (x || y)
-                add_tap(g, from, here, x && y ? 0.0625f : 0.125f, float(x * step), float(y * step),
-                        (ptrdiff_t(y) * stride + x) * step, sums);
-    for (size_t i = 0; i < kRun; ++i) {
-        const float scale = 1 / sums.weight[i];
+        const Here here{g.N[0][i],
+                        g.N[1][i],
+                        g.N[2][i],
+                        g.depth[i],
+                        g.slope[0][i],
+                        g.slope[1][i],
+                        g.albedo[i],
+                        brightness(r, green, b),
+                        kNoise / (variance + kLeastVariance),
+                        kOtherDepth / (depth + 1e-30f),
+                        g.surface[i]};
+        Sums sums{0.25f * r, 0.25f * green, 0.25f * b, 0.25f * a, 0.0625f * variance, 0.25f};
+        add_taps(std::make_integer_sequence<int, 9>(), g, from, here, step, stride, i, sums);
+        const float scale = 1 / sums.weight;
         // What is known for certain stays as it is.
-        const bool noisy = from.variance[i] > 0;
-        for (int k = 0; k < 4; ++k)
-            to.c[k][i] = noisy ? sums.c[k][i] * scale : from.c[k][i];
-        to.variance[i] = noisy ? sums.variance[i] * scale * scale : 0;
+        const bool noisy = variance > 0;
+        to.c[0][i] = noisy ? sums.r * scale : r;
+        to.c[1][i] = noisy ? sums.g * scale : green;
+        to.c[2][i] = noisy ? sums.b * scale : b;
+        to.c[3][i] = noisy ? sums.a * scale : a;
+        to.variance[i] = noisy ? sums.variance * scale * scale : 0;
     }
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "raytrace/film.h"
+#include "runtime/base/parallel.h"
+#include "runtime/play/denoise/kernels.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/first_hits/first_hits.h"
 
@@ -35,6 +37,15 @@ struct Planes {
         return size_t(y + kBorder) * size_t(stride) + size_t(x + kBorder);
     }
 };
+
+// Calls see(index of its first pixel) for each stretch of kFilterRun pixels, by any thread.
+template <class See>
+void each_stretch(const Planes& planes, See&& see) {
+    parallel_for(0, size_t(planes.height), kRowsOfTask, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y)
+            for (int x = 0; x < planes.width; x += int(kFilterRun)) see(planes.at(x, int(y)));
+    });
+}
 
 // The film's colors, and what the first hits are of the scene as it stands. Pixels whose shading
 // draws nothing at random have no variance, others 1. False: there are none of these.
