@@ -31,11 +31,9 @@ bool Denoiser::filter(const Scene& scene, const FirstHits& hits, raytrace::Film&
     m.filter.start(m.planes);
     // The next picture finds what one pass has left: less of a single bright sample stays for long.
     m.filter.pass(m.planes);
-    m.filter.save_colors(m.planes);
+    m.history.keep(scene, m.planes);
     for (int k = 1; k < AtrousFilter::kPasses; ++k) m.filter.pass(m.planes);
     take_colors(m.planes, film);
-    m.filter.bring_back(m.planes);
-    m.history.keep(scene, m.planes);
     return true;
 }
 

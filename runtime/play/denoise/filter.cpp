@@ -58,12 +58,4 @@ void AtrousFilter::pass(Planes& planes) {
     step_ *= 2;
 }
 
-void AtrousFilter::save_colors(const Planes& planes) {
-    for (int k = 0; k < 4; ++k) saved_[k].assign(planes.c[k].begin(), planes.c[k].end());
-}
-
-void AtrousFilter::bring_back(Planes& planes) {
-    for (int k = 0; k < 4; ++k) std::swap(planes.c[k], saved_[k]);
-}
-
 }  // namespace kinora

@@ -16,14 +16,9 @@ class AtrousFilter {
     // The next pass. Stretches of a row without noise are copied.
     void pass(Planes& planes);
 
-    // Keeps the colors as they are now; puts them back.
-    void save_colors(const Planes& planes);
-    void bring_back(Planes& planes);
-
   private:
     int step_ = 1;
     std::vector<float> c_[4], variance_;  // where a pass writes
-    std::vector<float> saved_[4];
 };
 
 }  // namespace kinora

@@ -76,26 +76,18 @@ void History::look_back(const Scene& scene, const FirstHits& hits, size_t at,
         places.depth[i] = 0;
         if (planes.variance[at + i] > 0) find(place_before(scene, hits, hit + i), places, i);
     }
-    const Planes& before = before_;
-    const size_t origin = before.at(0, 0);
-
-    history_kernels().look_back({before.width,
-                                 before.height,
-                                 before.stride,
-                                 &before.surface[origin],
-                                 {&before.N[0][origin], &before.N[1][origin], &before.N[2][origin]},
-                                 &before.depth[origin],
-                                 {&before.slope[0][origin], &before.slope[1][origin]},
-                                 rows_of(before.c, moments_before_, origin)},
-                                {places.x,
-                                 places.y,
-                                 places.depth,
-                                 &planes.surface[at],
-                                 {&planes.N[0][at], &planes.N[1][at], &planes.N[2][at]}},
-                                {{&seen_[0][at], &seen_[1][at], &seen_[2][at], &seen_[3][at]},
-                                 &seen_moments_.first[at],
-                                 &seen_moments_.second[at],
-                                 &seen_moments_.count[at]});
+    const ptrdiff_t border = Planes::kBorder;
+    history_kernels().look_back(
+        {width_, height_, stride_, before_.data() + border * stride_ + border},
+        {places.x,
+         places.y,
+         places.depth,
+         &planes.surface[at],
+         {&planes.N[0][at], &planes.N[1][at], &planes.N[2][at]}},
+        {{&seen_[0][at], &seen_[1][at], &seen_[2][at], &seen_[3][at]},
+         &seen_moments_.first[at],
+         &seen_moments_.second[at],
+         &seen_moments_.count[at]});
 }
 
 // Pixels without a variance have seen nothing, and say nothing.
@@ -135,9 +127,27 @@ void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
     mix(planes);
 }
 
-void History::keep(const Scene& scene, Planes& planes) {
-    std::swap(before_, planes);
-    std::swap(moments_before_, moments_);
+// The border, too, which is of no surface.
+void History::keep_pixels(const Planes& p) {
+    before_.resize(p.surface.size());
+    parallel_for(0, before_.size(), size_t(stride_) * kRowsOfTask, [&](size_t begin, size_t end) {
+        for (size_t at = begin; at < end; ++at)
+            before_[at] = {{p.c[0][at], p.c[1][at], p.c[2][at], p.c[3][at]},
+                           moments_.first[at],
+                           moments_.second[at],
+                           moments_.count[at],
+                           p.depth[at],
+                           {p.N[0][at], p.N[1][at], p.N[2][at]},
+                           {p.slope[0][at], p.slope[1][at]},
+                           p.surface[at]};
+    });
+}
+
+void History::keep(const Scene& scene, const Planes& planes) {
+    width_ = planes.width;
+    height_ = planes.height;
+    stride_ = planes.stride;
+    keep_pixels(planes);
     const raytrace::Camera& camera = scene.view;
     view_ = {camera.eye,
              camera.forward,

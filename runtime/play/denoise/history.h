@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "runtime/play/denoise/history_kernels.h"
 #include "runtime/play/denoise/planes.h"
 
 namespace kinora {
@@ -22,8 +23,8 @@ class History {
     // Mixes into the colors of pixels with a variance what was seen there before, and sets that
     // variance: of the brightness, as the mixture has it (history_kernels.h).
     void blend(const Scene& scene, const FirstHits& hits, Planes& planes);
-    // These colors are what the next picture finds. The planes become those of the picture before.
-    void keep(const Scene& scene, Planes& planes);
+    // These colors are what the next picture finds.
+    void keep(const Scene& scene, const Planes& planes);
 
   private:
     // Of the picture before, the camera: how it sees a place, in pixels.
@@ -40,15 +41,19 @@ class History {
     void find(vec3 P, Places& places, size_t i) const;
     void look_back(const Scene& scene, const FirstHits& hits, size_t at, const Planes& planes);
     void mix(Planes& planes);
+    void keep_pixels(const Planes& planes);
     void keep_places(const Scene& scene);
 
     bool known_ = false;
-    Planes before_;
+    // The picture before, with its border.
+    std::vector<SeenPixel> before_;
+    int width_ = 0, height_ = 0;
+    ptrdiff_t stride_ = 0;
     std::vector<float> fresh_[4];  // colors before they are mixed
     // What the picture before has where the new one looks; count 0: nothing.
     std::vector<float> seen_[4];
     Moments seen_moments_;
-    Moments moments_, moments_before_;
+    Moments moments_;
     View view_;
     // Of each row of Scene::geometry: the matrix of instanced ones, the vertices of deforming ones.
     std::vector<dmat4> accel_from_local_;

@@ -22,14 +22,21 @@ struct SeenRows {
     const float* count;           // pictures; 0: nothing was seen there
 };
 
-// A picture that was seen, whole: pointers to its first pixel.
+// A pixel that was seen, as Planes has it, in one line of the cache: others find it anywhere.
+struct alignas(64) SeenPixel {
+    float c[4];
+    float first, second, count;  // SeenRows
+    float depth;
+    float N[3];
+    float slope[2];
+    uint32_t surface;
+};
+
+// A picture that was seen: its first pixel, in rows with a border about them.
 struct PictureBefore {
     int width, height;
     ptrdiff_t stride;
-    const uint32_t* surface;
-    const float* N[3];
-    const float *depth, *slope[2];  // Planes
-    SeenRows seen;
+    const SeenPixel* pixels;
 };
 
 // Where pixels look in the picture before: what they show there and how deep it would lie.

@@ -30,68 +30,48 @@ constexpr float kSamePlane = 0.05f;  // share of the depth
 constexpr float kSameWay = 0.8f;     // cosine between normals
 constexpr float kLeastSeen = 0.05f;  // of the four pixels about a place
 
-// One pixel that looks back, and what it finds; stays in registers.
-struct Looking {
-    uint32_t surface;
-    float nx, ny, nz, depth;
-    float right, below;  // of the upper left of four pixels
-    int32_t first;       // that one
-    float r = 0, g = 0, b = 0, a = 0, mean = 0, square = 0, count = 0, weights = 0;
-};
+using FourFloats = float __attribute__((vector_size(16)));
 
-// Of four, row by row.
-template <int number>
-KINORA_LANE void add_seen(const PictureBefore& before, Looking& looking) {
-    constexpr int column = number % 2, row = number / 2;
-    const int32_t at = looking.first + row * int32_t(before.stride) + column;
-    const float right = looking.right - column, below = looking.below - row;
-    const float expected =
-        before.depth[at] + before.slope[0][at] * right + before.slope[1][at] * below;
-    const float apart = expected - looking.depth, distance = apart < 0 ? -apart : apart;
-    const float depth = looking.depth < 0 ? -looking.depth : looking.depth;
-    const float facing =
-        before.N[0][at] * looking.nx + before.N[1][at] * looking.ny + before.N[2][at] * looking.nz;
-    const bool is_it = (before.surface[at] == looking.surface) & (distance <= kSamePlane * depth) &
-                       (facing >= kSameWay);
-    const float share =
-        (column ? looking.right : 1 - looking.right) * (row ? looking.below : 1 - looking.below);
-    const float weight = is_it ? share : 0;
-    looking.r += weight * before.seen.c[0][at];
-    looking.g += weight * before.seen.c[1][at];
-    looking.b += weight * before.seen.c[2][at];
-    looking.a += weight * before.seen.c[3][at];
-    looking.mean += weight * before.seen.first[at];
-    looking.square += weight * before.seen.second[at];
-    looking.count += weight * before.seen.count[at];
-    looking.weights += weight;
+KINORA_LANE FourFloats load_four(const float* from) {
+    FourFloats four;
+    __builtin_memcpy(&four, from, sizeof(four));
+    return four;
 }
 
-void look_back(const PictureBefore& picture, const LookBack& all, const SeenResult& result) {
-    const PictureBefore before = picture;
-    const LookBack rows = all;
-    const SeenResult to = result;
-#pragma GCC ivdep
+// One by one: what they find lies anywhere.
+void look_back(const PictureBefore& before, const LookBack& rows, const SeenResult& to) {
     for (size_t i = 0; i < kRun; ++i) {
-        const bool inside = (rows.x[i] > -1) & (rows.y[i] > -1) &
-                            (rows.x[i] < float(before.width)) & (rows.y[i] < float(before.height));
-        const float x = inside ? rows.x[i] : 0, y = inside ? rows.y[i] : 0;
-        const int32_t left = int32_t(x + 1) - 1, top = int32_t(y + 1) - 1;
-        Looking looking{
-            rows.surface[i], rows.N[0][i],    rows.N[1][i],   rows.N[2][i],
-            rows.depth[i],   x - float(left), y - float(top), top * int32_t(before.stride) + left};
-        add_seen<0>(before, looking);
-        add_seen<1>(before, looking);
-        add_seen<2>(before, looking);
-        add_seen<3>(before, looking);
-        const bool known = inside & (looking.weights >= kLeastSeen);
-        const float scale = 1 / larger(looking.weights, kLeastSeen);
-        to.c[0][i] = looking.r * scale;
-        to.c[1][i] = looking.g * scale;
-        to.c[2][i] = looking.b * scale;
-        to.c[3][i] = looking.a * scale;
-        to.first[i] = looking.mean * scale;
-        to.second[i] = looking.square * scale;
-        to.count[i] = known ? looking.count * scale : 0;
+        const float x = rows.x[i], y = rows.y[i], depth = rows.depth[i];
+        to.count[i] = 0;
+        if (!(x > -1 && y > -1 && x < float(before.width) && y < float(before.height))) continue;
+        const int left = int(x + 1) - 1, top = int(y + 1) - 1;
+        const float right = x - float(left), below = y - float(top);
+        const SeenPixel* pixel = before.pixels + top * before.stride + left;
+        FourFloats color{}, moments{};
+        float weights = 0;
+        for (int k = 0; k < 4; ++k) {
+            const int column = k % 2, row = k / 2;
+            const SeenPixel& seen = pixel[row * before.stride + column];
+            const float expected = seen.depth + seen.slope[0] * (right - float(column)) +
+                                   seen.slope[1] * (below - float(row));
+            const float facing =
+                seen.N[0] * rows.N[0][i] + seen.N[1] * rows.N[1][i] + seen.N[2] * rows.N[2][i];
+            const bool is_it =
+                seen.surface == rows.surface[i] &&
+                __builtin_fabsf(expected - depth) <= kSamePlane * __builtin_fabsf(depth) &&
+                facing >= kSameWay;
+            if (!is_it) continue;
+            const float weight = (column ? right : 1 - right) * (row ? below : 1 - below);
+            color += weight * load_four(seen.c);
+            moments += weight * load_four(&seen.first);
+            weights += weight;
+        }
+        if (weights < kLeastSeen) continue;
+        const float scale = 1 / weights;
+        for (int k = 0; k < 4; ++k) to.c[k][i] = color[k] * scale;
+        to.first[i] = moments[0] * scale;
+        to.second[i] = moments[1] * scale;
+        to.count[i] = moments[2] * scale;
     }
 }
 

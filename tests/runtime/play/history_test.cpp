@@ -211,16 +211,16 @@ TEST(History, LooksBackBetweenPixelsOfTheSameSurface) {
             before.slope[0][at] = 0.01f;
             before.depth[at] = 1 + 0.01f * float(x) + (y > 12 ? 0.5f : 0);
         }
-    const auto rows = [&](size_t at) {
-        return PictureBefore{kWidth,
-                             kHeight,
-                             before.stride,
-                             &before.surface[at],
-                             {&before.N[0][at], &before.N[1][at], &before.N[2][at]},
-                             &before.depth[at],
-                             {&before.slope[0][at], &before.slope[1][at]},
-                             s.seen_rows(at)};
-    };
+    std::vector<SeenPixel> pixels(before.surface.size());
+    for (size_t at = 0; at < pixels.size(); ++at)
+        pixels[at] = {{s.seen[0][at], s.seen[1][at], s.seen[2][at], s.seen[3][at]},
+                      s.first[at],
+                      s.second[at],
+                      s.count[at],
+                      before.depth[at],
+                      {before.N[0][at], before.N[1][at], before.N[2][at]},
+                      {before.slope[0][at], before.slope[1][at]},
+                      before.surface[at]};
     std::vector<float> of_first_kernel;
     for (size_t number = 0; number < usable_history_kernels().count; ++number) {
         std::vector<float> bits;
@@ -238,7 +238,8 @@ TEST(History, LooksBackBetweenPixelsOfTheSameSurface) {
             }
             float c[4][kFilterRun], first[kFilterRun], second[kFilterRun], count[kFilterRun];
             usable_history_kernels().kernels[number]->look_back(
-                rows(before.at(0, 0)), {px, py, depth, surface, {N[0], N[1], N[2]}},
+                {kWidth, kHeight, before.stride, &pixels[before.at(0, 0)]},
+                {px, py, depth, surface, {N[0], N[1], N[2]}},
                 {{c[0], c[1], c[2], c[3]}, first, second, count});
             for (int i = 0; i < kWidth; ++i) {
                 double sum = 0, pictures = 0, weights = 0;
