@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytrace/random/series.h"
 #include "raytrace/sampling.h"
 #include "raytrace/wavefront.h"
 
@@ -29,6 +30,14 @@ inline uint32_t random_of(const raytrace::HitBatch& hits, size_t h, uint32_t fra
     uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]) ^ raytrace::hash(frame_seed);
     uint32_t layer = hits.layer[h] % 64 + 64 * hits.depth + (hits.layer[h] / 64 << 16);
     return raytrace::hash(pixel, hits.sample[h], layer);
+}
+
+// What a hit draws from: the camera's hits in one pixel share a sequence, others have their own.
+inline raytrace::SampleSeries series_of(const raytrace::HitBatch& hits, size_t h,
+                                        uint32_t frame_seed) {
+    if (hits.depth > 0) return {random_of(hits, h, frame_seed)};
+    uint32_t pixel = raytrace::hash(hits.pixel_x[h], hits.pixel_y[h]) ^ raytrace::hash(frame_seed);
+    return {raytrace::hash(pixel, 0x2c1b3c6du, hits.layer[h]), hits.sample[h], true};
 }
 
 // The way of a hit's ray since its last surface, or since it began; accel space.

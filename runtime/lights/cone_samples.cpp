@@ -2,7 +2,6 @@
 #include "runtime/lights/cone_samples.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -27,8 +26,9 @@ void ConeSamples::find(uint32_t first) {
         const bool wide = length > 0 && angle > 0;
         if (wide) {
             const Cone cone(axis, std::min(angle, float(kPi)), false);
-            const uint32_t own = std::bit_cast<uint32_t>(cones_.rng[i]);
-            ray_kernels().directions(cone, first, raytrace::hash(own, cones_.seed), dir);
+            const raytrace::SampleSeries series =
+                raytrace::series_of(cones_.series[i], cones_.seed);
+            ray_kernels().directions(cone, series.part * cones_.samples + first, series.seed, dir);
         }
         for (size_t s = 0; s < kAtOnce; ++s)
             for (int c = 0; c < 3; ++c) rows_[s][c][i] = wide ? dir[c][s] * length : axis[c];

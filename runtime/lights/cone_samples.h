@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "raytrace/random/series.h"
 #include "runtime/base/arena.h"
 
 namespace kinora {
@@ -13,8 +14,9 @@ struct SkyCones {
     size_t count = 0;
     const float* axis[3];  // to the light, of any length, which directions keep
     const float* angle;    // radians between the axis and the side; 0 or NaN: the axis alone
-    const float* rng;      // ints: what tells the points apart
+    const raytrace::SampleSeries* series;
     uint32_t seed = 0;     // of the light
+    uint32_t samples = 1;  // of a point
 };
 
 // Directions in the cones: sixteen samples at a time, of each a row a component.

@@ -80,8 +80,9 @@ void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight&
     uint32_t number = uint32_t(lit.look->index);  // tells lights on one surface apart
     for (size_t i = 0; i < padded(at.count); ++i) {
         size_t point = std::min(i, at.count - 1);
-        uint32_t seed = raytrace::hash(uint32_t(jit::bits_of(at.rng[point])), number, frame_.seed);
-        vec2 u(raytrace::stratified_sample(sample, seed));
+        const raytrace::SampleSeries series =
+            raytrace::series_of(at.series[point], raytrace::hash(number, frame_.seed));
+        vec2 u(raytrace::stratified_sample(series.part * light.samples + sample, series.seed));
         float wanted = u.x * below.back();
         size_t t = size_t(std::upper_bound(below.begin(), below.end(), wanted) - below.begin());
         t = std::min(t, below.size() - 1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raytrace/accel.h"
+#include "raytrace/random/series.h"
 #include "runtime/shading/grid.h"
 #include "runtime/shading/light_bindings.h"
 
@@ -21,6 +22,7 @@ struct LightPoints {
     const float* Ng[3];                 // accel space
     const uint32_t* normals = nullptr;  // Grid::normals of these points
     const float* rng = nullptr;
+    const raytrace::SampleSeries* series = nullptr;  // where some light has samples
     const uint32_t* surface = nullptr;  // the surface that is lit, kNone: none
     const float* zeros = nullptr;       // a row of them
     size_t first = 0;  // grid point of element 0: what record columns are relative to

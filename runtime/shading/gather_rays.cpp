@@ -391,7 +391,7 @@ void GatherRays::Call::set_lanes() {
         const float angle = lanes_.number(Row::Angle, lane);
         const vec3 way = made_.way(lane);
         if (angle > 0)
-            made_.set_cone(lane, angle);
+            made_.set_cone(lane, angle, counts_.samples[lane]);
         else
             made_.set_straight(lane, way / glm::length(way));
         made_.set_reach(lane, lanes_.number(Row::Maxdist, lane), lanes_.number(Row::Bias, lane),
@@ -401,7 +401,9 @@ void GatherRays::Call::set_lanes() {
 
 void GatherRays::Call::add_rays_of(int lane) {
     const int n = counts_.samples[lane];
-    const uint32_t seed = lanes_.seed(lane);
+    const uint32_t hit = grid_.points[std::min(lanes_.point(lane), grid_.count() - 1)];
+    const raytrace::SampleSeries series = series_of(grid_, lanes_, lane, grid_.hits, hit);
+    const uint32_t first_sample = series.part * uint32_t(n);
     const vec3 P = lanes_.triple(Row::P, lane);
     const Cone cone = made_.cone(lane);
     const int32_t map = lanes_.integer(Row::Map, lane);
@@ -410,7 +412,8 @@ void GatherRays::Call::add_rays_of(int lane) {
     for (uint32_t k = 0; k < uint32_t(n); ++k) {
         vec3 dir(0.0f);
         if (map || !of_ray_.empty()) {
-            dir = by_brightness ? over.direction(k, seed) : made_.direction(lane, k);
+            dir = by_brightness ? over.direction(first_sample + k, series.seed)
+                                : made_.direction(lane, k);
             RayFacts facts{P, all_.frame_.camera_from_accel * dir,
                            lanes_.number(Row::Maxdist, lane)};
             if (map)

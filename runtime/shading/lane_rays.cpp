@@ -46,7 +46,10 @@ LaneRays::LaneRays(const Grid& grid, const Lanes& lanes, int P, int way, bool by
     for (int lane = 0; lane < kSixteen; ++lane) {
         lane_.straight[lane] = 0;
         lane_.cosine[lane] = 1;
-        lane_.seed[lane] = lanes.seed(lane);
+        const raytrace::SampleSeries own = series_of(grid, lanes, lane, *hits_[lane], hit_[lane]);
+        lane_.seed[lane] = own.seed;
+        part_[lane] = own.part;
+        first_[lane] = 0;
     }
 }
 
@@ -144,9 +147,11 @@ vec3 LaneRays::way(int lane) const {
 void LaneRays::set_straight(int lane, vec3 unit) {
     for (int k = 0; k < 3; ++k) lane_.axis[k][lane] = unit[k];
     lane_.straight[lane] = 1;
+    first_[lane] = part_[lane];
 }
 
-void LaneRays::set_cone(int lane, float angle) {
+void LaneRays::set_cone(int lane, float angle, int samples) {
+    first_[lane] = part_[lane] * uint32_t(samples);
     grid_.note_random();
     if (!wants_.cones || angle != angle_)
         cosine_ = Cone(vec3(0, 0, 1), angle, wants_.by_cosine).cosine;
@@ -173,6 +178,7 @@ void LaneRays::aim() {
 
 vec3 LaneRays::direction(int lane, uint32_t k) {
     if (lane_.straight[lane]) return way(lane);
+    k += first_[lane];
     if (lane != lane_made_ || k / kSixteen != block_made_) {
         lane_made_ = lane;
         block_made_ = k / kSixteen;
@@ -202,7 +208,7 @@ void LaneRays::add(raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t
         for (size_t i = 0; i < kSixteen; ++i) {
             const size_t from = first + std::min(i, count - 1);
             sixteen.lane[i] = samples.lane[from];
-            sixteen.number[i] = samples.number[from];
+            sixteen.number[i] = first_[sixteen.lane[i]] + samples.number[from];
         }
         put(rays, sixteen, count, slot + uint32_t(first));
     }

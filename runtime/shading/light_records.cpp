@@ -95,10 +95,10 @@ LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     for (size_t l = 0; l < frame.scene.lights.size(); ++l) {
         for (const LightOutputs& statement : bindings_.statements(l)) {
             record_count_ += samples_of(l, statement);
-            need_rng_ |= statement.spread >= 0;
+            draws_samples_ |= statement.spread >= 0;
         }
-        need_rng_ |= area_lights_.find(l) ||
-                     frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
+        draws_samples_ |= area_lights_.find(l) != nullptr;
+        need_rng_ |= frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
     }
 }
 
@@ -199,6 +199,13 @@ void LightRecords::run(Grid& grid) {
     }
     at.normals = grid.normals.data();
     at.rng = grid.columns[kColRng];
+    if (draws_samples_) {
+        std::span<raytrace::SampleSeries> series =
+            grid.memory.arena.allocate_span<raytrace::SampleSeries>(at.count);
+        for (size_t i = 0; i < at.count; ++i)
+            series[i] = series_of(grid.hits, grid.points[i], frame_.seed);
+        at.series = series.data();
+    }
     at.own = true;
     grid.record_sets[0] = make_records(grid, at);
 }
@@ -312,7 +319,8 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     else
         make_record(making, statement, binding, out, false, nullptr);
     std::span<float*> rows = arena.allocate_span<float*>(out.size());
-    SkyCones cones{at.count, {}, angle, at.rng, raytrace::hash(uint32_t(l), frame_.seed)};
+    SkyCones cones{at.count,         {}, angle, at.series, raytrace::hash(uint32_t(l), frame_.seed),
+                   uint32_t(samples)};
     for (size_t c = 0; wide && c < 3; ++c) cones.axis[c] = out[size_t(statement.L[c])];
     for (uint32_t first = 0; wide && first < samples; first += ConeSamples::kAtOnce) {
         ConeSamples cone(cones, padded(at.count), arena);
@@ -470,6 +478,10 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
                                                  raytrace::hash(bits(P.x), bits(P.y), bits(P.z)))));
     }
     at.rng = rows[12];
+    std::span<raytrace::SampleSeries> series =
+        arena.allocate_span<raytrace::SampleSeries>(jit::kMaxLanes);
+    for (size_t i = 0; i < jit::kMaxLanes; ++i) series[i] = {bits(rows[12][i])};
+    at.series = series.data();
     std::span<uint32_t> surface = arena.allocate_span<uint32_t>(jit::kMaxLanes);
     std::fill(surface.begin(), surface.end(), kNone);
     at.surface = surface.data();

@@ -76,7 +76,8 @@ class LightRecords {
     std::vector<uint8_t> absent_;      // of each light: it reaches no surface in this frame
     bool all_ = false;
     size_t record_count_ = 0;  // of one run
-    bool need_rng_ = false;
+    bool need_rng_ = false;       // some light's kernel does
+    bool draws_samples_ = false;  // for some light
 };
 
 }  // namespace kinora

@@ -260,8 +260,13 @@ TracedRay choose_way(Grid& grid, size_t point, float weight, float through) {
     return {0, 0};
 }
 
-uint32_t Lanes::seed(int lane) const {
-    return raytrace::hash(uint32_t(integer(0, lane)), uint32_t(integer(1, lane)));
+// Points that have a number of their own (steps of a march) have a series of their own, too.
+raytrace::SampleSeries series_of(const Grid& grid, const Lanes& lanes, int lane,
+                                 const raytrace::HitBatch& hits, uint32_t hit) {
+    const bool is_hit = hits.depth == 0 && lanes.own(lane) == random_of(hits, hit, grid.frame.seed);
+    return raytrace::series_of(
+        is_hit ? series_of(hits, hit, grid.frame.seed) : raytrace::SampleSeries{lanes.own(lane)},
+        lanes.site(lane));
 }
 
 RayTag deeper(const Grid& grid, RayKind kind, int32_t label) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "raytrace/points/points.h"
+#include "raytrace/random/series.h"
 #include "runtime/base/parallel.h"
 #include "runtime/rays/ray_kernels.h"
 #include "runtime/shading/grid.h"
@@ -177,8 +178,11 @@ class Lanes {
         float n = number(row, lane);
         return n >= 1 ? int(std::min(n + 0.5f, float(kMostSamples))) : 1;
     }
-    // Of all samples of the call at this lane: the point, the call in the source, its loops.
-    uint32_t seed(int lane) const;
+    // What tells the point apart; the call in the source, with its loops.
+    uint32_t own(int lane) const { return uint32_t(integer(0, lane)); }
+    uint32_t site(int lane) const { return uint32_t(integer(1, lane)); }
+    // Of all samples of the call at this lane.
+    uint32_t seed(int lane) const { return raytrace::hash(own(lane), site(lane)); }
 
   private:
     const jit::ServiceCall& call_;
@@ -196,6 +200,10 @@ struct SampleSpan {
     }
 };
 
+// What the samples of a call are drawn from at one lane, whose point is that hit.
+raytrace::SampleSeries series_of(const Grid& grid, const Lanes& lanes, int lane,
+                                 const raytrace::HitBatch& hits, uint32_t hit);
+
 // The rays of the lanes of a call, made sixteen at a time: each is what add_ray() and spread_ray()
 // would make. All lanes that ask must be told their way before the first ray is made.
 class LaneRays {
@@ -206,8 +214,8 @@ class LaneRays {
     // Along the way alone, at its unit vector that the caller finds.
     vec3 way(int lane) const;
     void set_straight(int lane, vec3 unit);
-    // In a cone about the way, of half the opening angle.
-    void set_cone(int lane, float angle);
+    // In a cone about the way, of half the opening angle, so many samples.
+    void set_cone(int lane, float angle, int samples);
     void set_reach(int lane, float tfar, float bias, float share);
     void set_weight(int lane, float weight);
 
@@ -231,7 +239,9 @@ class LaneRays {
     const Lanes& lanes_;
     const raytrace::HitBatch* hits_[kSixteen];
     uint32_t hit_[kSixteen];
-    bool dense_ = false;  // one behind the other
+    uint32_t part_[kSixteen];   // SampleSeries
+    uint32_t first_[kSixteen];  // sample of the lane's
+    bool dense_ = false;        // one behind the other
     RayWants wants_;
     RayLanes lane_;
     bool aimed_ = false;

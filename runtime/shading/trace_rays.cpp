@@ -77,13 +77,13 @@ class ConeRays {
         bool asks = grid_.shadows && has_direction(lanes_.triple(kN, lane));
         return asks ? lanes_.samples(kSamples, lane) : 0;
     }
-    // Made when they are first asked for; `share` of each lane.
-    LaneRays& rays(const float (&share)[kLanes]) {
+    // Made when they are first asked for; `count` and `share` of each lane.
+    LaneRays& rays(const int (&count)[kLanes], const float (&share)[kLanes]) {
         if (rays_) return *rays_;
         rays_.emplace(grid_, lanes_, kP, kN, true);
         for (int lane = 0; lane < kLanes; ++lane) {
             if (!lanes_.asks(lane)) continue;
-            rays_->set_cone(lane, lanes_.number(kAngle, lane));
+            rays_->set_cone(lane, lanes_.number(kAngle, lane), count[lane]);
             rays_->set_reach(lane, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane),
                              share[lane]);
         }
@@ -170,7 +170,8 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
         for (int lane = 0; lane < kLanes; ++lane) {
             if (plan.count[lane] == 0) continue;
             made->set_straight(lane, glm::normalize(made->way(lane)));
-            if (lanes.number(Spread, lane) > 0) made->set_cone(lane, lanes.number(Spread, lane));
+            if (lanes.number(Spread, lane) > 0)
+                made->set_cone(lane, lanes.number(Spread, lane), count(lane));
             made->set_reach(lane, lanes.number(Maxdist, lane), lanes.number(Bias, lane),
                             plan.share[lane]);
             made->set_weight(lane, plan.way[lane].weight);
@@ -274,8 +275,11 @@ class RayServices::Passing {
         vec3 way = (w.to.P + w.up_to) - (start.P + w.up_from);
         if (float spread = lanes_.number(kSpread, lane); spread > 0) {
             grid_.note_random();
-            way =
-                Cone(way, spread, false).direction(w.sample, lanes_.seed(lane)) * glm::length(way);
+            const raytrace::SampleSeries series =
+                series_of(grid_, lanes_, lane, *start.hits, start.hit);
+            const uint32_t number =
+                series.part * uint32_t(lanes_.samples(kSamples, lane)) + w.sample;
+            way = Cone(way, spread, false).direction(number, series.seed) * glm::length(way);
         }
         vec3 target = start.P + w.up_from + way;
         if (w.to.Ng != vec3(0.0f)) {
@@ -379,7 +383,7 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     in_batches(
         lanes, count, nested->rays,
         [&](const SampleSpan& samples) {
-            cone.rays(share).add(nested->rays, samples, 0);
+            cone.rays(count, share).add(nested->rays, samples, 0);
             for (size_t i = 0; i < samples.size(); ++i) dirs[i] = triple(nested->rays.dir, i);
         },
         [&](std::span<const uint8_t> lane_of) {
@@ -467,14 +471,16 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
             for (size_t i = 0, n; i < planned.size(); i += n) {  // runs that are shot or not
                 for (n = 1; i + n < planned.size() && shoots(i + n) == shoots(i);) ++n;
                 if (shoots(i))
-                    cone.rays(plan.share).add(rays, planned.subspan(i, n), slot + uint32_t(i));
+                    cone.rays(plan.count, plan.share)
+                        .add(rays, planned.subspan(i, n), slot + uint32_t(i));
             }
         },
         [&](const SampleSpan& all, std::span<const SeenByRay> seen) {
             for_each_map(lanes, Map, all.lane, [&](size_t begin, size_t end, int32_t map) {
                 int lane = all.lane[begin];
                 for (size_t i = begin; i < end; ++i)
-                    dirs[i - begin] = cone.rays(plan.share).direction(lane, all.number[i]);
+                    dirs[i - begin] =
+                        cone.rays(plan.count, plan.share).direction(lane, all.number[i]);
                 light_of_map(*frame_.scene.textures, map, dirs.first(end - begin),
                              sample_width(samples[lane]), light.data());
                 for (size_t i = begin; i < end; ++i) sky[lane] += seen[i].open * light[i - begin];
