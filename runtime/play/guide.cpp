@@ -156,20 +156,34 @@ bool are_alike(float much, const Place& here, const Place& right, const Place& b
     return is_alike(much, here, right) && is_alike(much, here, below) && is_alike(much, here, both);
 }
 
-// Of each pixel of a guide: whether an edge may lie within a pixel of its center.
+template <class Body>
+void each_row(int rows, Body&& body) {
+    parallel_for(0, size_t(rows), 16, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y) body(int(y));
+    });
+}
+
+// Of each pixel of a guide: whether an edge may lie within a pixel of its center, as one does where
+// a pixel is unlike its right neighbor or the two below.
 std::vector<uint8_t> beside_edges(const PictureGuide& guide) {
-    std::vector<uint8_t> edges(guide.surface.size());
+    std::vector<uint8_t> unlike(guide.surface.size()), edges(guide.surface.size());
     const auto at = [&](int x, int y) { return size_t(y) * size_t(guide.width) + size_t(x); };
-    for (int y = 0; y < guide.height; ++y)
+    each_row(guide.height, [&](int y) {
+        const int below = std::min(y + 1, guide.height - 1);
         for (int x = 0; x < guide.width; ++x) {
-            const int right = std::min(x + 1, guide.width - 1),
-                      below = std::min(y + 1, guide.height - 1);
-            if (are_alike(kNoEdge, place_at(guide, x, y), place_at(guide, right, y),
-                          place_at(guide, x, below), place_at(guide, right, below)))
-                continue;
-            edges[at(x, y)] = edges[at(right, y)] = edges[at(x, below)] = edges[at(right, below)] =
-                1;
+            const int right = std::min(x + 1, guide.width - 1);
+            unlike[at(x, y)] = !are_alike(kNoEdge, place_at(guide, x, y), place_at(guide, right, y),
+                                          place_at(guide, x, below), place_at(guide, right, below));
         }
+    });
+    each_row(guide.height, [&](int y) {
+        const int above = std::max(y - 1, 0);
+        for (int x = 0; x < guide.width; ++x) {
+            const int left = std::max(x - 1, 0);
+            edges[at(x, y)] = unlike[at(x, y)] | unlike[at(left, y)] | unlike[at(x, above)] |
+                              unlike[at(left, above)];
+        }
+    });
     return edges;
 }
 
@@ -213,12 +227,6 @@ class Enlargement {
     }
 
   private:
-    template <class Body>
-    static void each_row(int rows, Body&& body) {
-        parallel_for(0, size_t(rows), 16, [&](size_t begin, size_t end) {
-            for (size_t y = begin; y < end; ++y) body(int(y));
-        });
-    }
     size_t at(int x, int y) const { return size_t(y) * size_t(small_.width) + size_t(x); }
 
     void find_alike(int y) {
