@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 #include <optional>
 #include <span>
 
@@ -257,6 +258,10 @@ struct RayPlan {
     int count[jit::kMaxLanes] = {};
     float share[jit::kMaxLanes] = {};
     TracedRay way[jit::kMaxLanes];
+
+    bool any() const {
+        return std::any_of(std::begin(count), std::end(count), [](int n) { return n > 0; });
+    }
 };
 
 // Rays of many points in full batches (docs/rays.md#full-packets). A kernel that shoots rays runs

@@ -188,7 +188,7 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
             distance[lane] = std::min(distance[lane], seen[i].distance);
         }
     };
-    if (shoots)
+    if (plan.any())
         lanes.for_each_text(Label, [&](const Lanes& alike) {
             RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, alike.first()));
             see_samples(grid, alike, Rows, plan, tag, nested_, add, sum);
@@ -431,6 +431,7 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
 
 void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     enum { Map = kMoreArgs, Rows };
+    constexpr int kResults = 7;  // the color, what of it is sky, how much is blocked
     Lanes lanes(call);
     ThreadMemory& memory = grid.memory;
     vec3 sum[kLanes] = {}, sky[kLanes] = {};
@@ -457,6 +458,10 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
         bool shoots = lanes.asks(lane) && (bounces || lanes.integer(Map, lane) != 0);
         plan.count[lane] = shoots && cone.count(lane) > 0 ? samples[lane] : 0;
         plan.share[lane] = share[lane];
+    }
+    if (!plan.any()) {  // as beyond the last bounce
+        std::fill_n(call.results, kResults * kLanes, 0.0f);
+        return;
     }
     Arena::Mark mark = memory.arena.mark();
     size_t most = is_noting(grid) ? 0 : kGridPoints;
