@@ -174,7 +174,7 @@ std::vector<Answer> RenderLoop::take_answers() {
 
 bool RenderLoop::answered() const {
     std::lock_guard lock(mutex_);
-    return !scene_ || (questions_.empty() && !working_);
+    return !scene_ || (questions_.empty() && answers_.empty() && !working_);
 }
 
 std::vector<FindingText> RenderLoop::take_findings() {

@@ -42,7 +42,7 @@ class RenderLoop {
 
     std::shared_ptr<const Picture> picture() const;
     std::vector<Answer> take_answers();
-    bool answered() const;  // all that was asked
+    bool answered() const;  // all that was asked, and the answers were taken
     std::vector<FindingText> take_findings();
     std::vector<StageTimes> times() const;
     uint64_t frames() const;  // begun
