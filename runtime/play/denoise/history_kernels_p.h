@@ -101,7 +101,7 @@ KINORA_LANE void add_near(const BlendRows& rows, ptrdiff_t stride, size_t i, Abo
     about.b2 += blue * blue;
     about.a2 += alpha * alpha;
     about.count += same ? 1.0f : 0.0f;
-    const float seen = same ? rows.seen.count[at] : 0;
+    const float count = rows.seen.count[at], seen = same ? count : 0;
     const float differs = brightness(r, g, b) -
                           brightness(rows.seen.c[0][at], rows.seen.c[1][at], rows.seen.c[2][at]);
     const float change = seen >= 1 ? differs : 0;
@@ -159,10 +159,10 @@ void blend(const BlendRows& all, ptrdiff_t stride) {
         const float old_r = known ? within_r : r, old_g = known ? within_g : g,
                     old_b = known ? within_b : b, old_a = known ? within_a : a;
         // Pixels without a variance have the same there.
-        rows.c[0][i] = noisy ? old_r + share * (r - old_r) : r;
-        rows.c[1][i] = noisy ? old_g + share * (g - old_g) : g;
-        rows.c[2][i] = noisy ? old_b + share * (b - old_b) : b;
-        rows.c[3][i] = noisy ? old_a + share * (a - old_a) : a;
+        rows.c[0][i] = known & noisy ? old_r + share * (r - old_r) : r;
+        rows.c[1][i] = known & noisy ? old_g + share * (g - old_g) : g;
+        rows.c[2][i] = known & noisy ? old_b + share * (b - old_b) : b;
+        rows.c[3][i] = known & noisy ? old_a + share * (a - old_a) : a;
         const float bright = brightness(r, g, b), before = brightness(old_r, old_g, old_b);
         const float seen_first = rows.seen.first[i];
         const float spread = rows.seen.second[i] - seen_first * seen_first;
@@ -184,7 +184,8 @@ KINORA_LANE void add_corner(const uint32_t* surface, const SeenRows& seen, ptrdi
     constexpr int x = number % 5 - 2, y = number / 5 - 2;
     const ptrdiff_t at = y * stride + x + ptrdiff_t(i);
     const bool same = surface[at] == surface[i];
-    const float first = same ? seen.first[at] : 0, second = same ? seen.second[at] : 0,
+    const float first_there = seen.first[at], second_there = seen.second[at];
+    const float first = same ? first_there : 0, second = same ? second_there : 0,
                 count = same ? 1.0f : 0.0f;
     const auto add = [&](Square& square) {
         square.first += first;

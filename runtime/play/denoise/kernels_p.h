@@ -22,6 +22,8 @@ constexpr float kOtherDepth = 100;   // one over the share of a depth that plane
 constexpr float kOtherAlbedo = 400;  // by its square
 constexpr float kNoise = 1 / 6.0f;   // one over the square of the deviations that noise has
 constexpr float kLeastVariance = 1e-7f;
+// The surface of a pixel that is known for certain: mixed with none, it stays as it is.
+constexpr uint32_t kAlone = 0xfffffffd;
 
 // A pixel's sums, which stay in registers.
 struct Sums {
@@ -86,6 +88,7 @@ void pass(const FilterGuide& guide, const FilterColors& colors, int step, ptrdif
     for (size_t i = 0; i < kRun; ++i) {
         const float r = from.c[0][i], green = from.c[1][i], b = from.c[2][i], a = from.c[3][i],
                     variance = from.variance[i];
+        const uint32_t surface = g.surface[i];
         const float depth = g.depth[i] < 0 ? -g.depth[i] : g.depth[i];
         const Here here{g.N[0][i],
                         g.N[1][i],
@@ -97,17 +100,15 @@ void pass(const FilterGuide& guide, const FilterColors& colors, int step, ptrdif
                         brightness(r, green, b),
                         kNoise / (variance + kLeastVariance),
                         kOtherDepth / (depth + 1e-30f),
-                        g.surface[i]};
+                        variance > 0 ? surface : kAlone};
         Sums sums{0.25f * r, 0.25f * green, 0.25f * b, 0.25f * a, 0.0625f * variance, 0.25f};
         add_taps(std::make_integer_sequence<int, 9>(), g, from, here, step, stride, i, sums);
         const float scale = 1 / sums.weight;
-        // What is known for certain stays as it is.
-        const bool noisy = variance > 0;
-        to.c[0][i] = noisy ? sums.r * scale : r;
-        to.c[1][i] = noisy ? sums.g * scale : green;
-        to.c[2][i] = noisy ? sums.b * scale : b;
-        to.c[3][i] = noisy ? sums.a * scale : a;
-        to.variance[i] = noisy ? sums.variance * scale * scale : 0;
+        to.c[0][i] = sums.r * scale;
+        to.c[1][i] = sums.g * scale;
+        to.c[2][i] = sums.b * scale;
+        to.c[3][i] = sums.a * scale;
+        to.variance[i] = sums.variance * scale * scale;
     }
 }
 
