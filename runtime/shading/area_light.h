@@ -23,8 +23,8 @@ struct LightPoints {
     const uint32_t* normals = nullptr;  // Grid::normals of these points
     const float* rng = nullptr;
     const raytrace::SampleSeries* series = nullptr;  // where some light has samples
-    const uint32_t* surface = nullptr;  // the surface that is lit, kNone: none
-    const float* zeros = nullptr;       // a row of them
+    const uint32_t* surface = nullptr;               // the surface that is lit, kNone: none
+    const float* zeros = nullptr;                    // a row of them
     size_t first = 0;  // grid point of element 0: what record columns are relative to
     bool own = false;  // the grid's points themselves
 };
