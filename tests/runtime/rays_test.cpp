@@ -17,7 +17,7 @@ namespace kinora {
 namespace {
 
 TEST(Occlusion, OfAFloorBesideAWallIsItsFormFactor) {
-    SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 256);"), kBlack, 0.8);
+    SceneText scene = floor_and_wall(floor_code("Ci = occlusion(P, n, 1024);"), kBlack, 0.8);
     Rendering r(scene.text());
     r.frame();
     ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();
@@ -29,10 +29,10 @@ TEST(Occlusion, OfAFloorBesideAWallIsItsFormFactor) {
             mean += double(r.color(x, y).x) / 16;
             squares += std::pow(double(r.color(x, y).x) - want, 2);
         }
-        EXPECT_NEAR(mean, want, 0.006) << "column " << x;  // four deviations
+        EXPECT_NEAR(mean, want, 0.003) << "column " << x;  // more than four deviations
     }
-    // Rays drawn alone: sqrt(want (1 - want) / 256), 0.02 on average.
-    EXPECT_LT(std::sqrt(squares / 256), 0.007);
+    // Rays drawn alone: sqrt(want (1 - want) / 1024), 0.01 on average.
+    EXPECT_LT(std::sqrt(squares / 256), 0.0035);
 }
 
 TEST(Occlusion, OfAnOpenFloorIsExactlyNothing) {
@@ -240,7 +240,7 @@ TEST(IndirectDiffuse, InAWhiteFurnaceIsOne) {
 }
 
 TEST(IndirectDiffuse, IsTheColorTimesTheFormFactor) {
-    SceneText scene = floor_and_wall(floor_code("Ci = indirectdiffuse(P, n, 256);"),
+    SceneText scene = floor_and_wall(floor_code("Ci = indirectdiffuse(P, n, 1024);"),
                                      "surface lamp() { Oi = 1; Ci = color(1, 2, 4); }", 0.8);
     Rendering r(scene.text());
     r.frame();
@@ -248,7 +248,7 @@ TEST(IndirectDiffuse, IsTheColorTimesTheFormFactor) {
         vec3 mean(0.0f);
         for (int y = 0; y < 16; ++y) mean += r.color(x, y) / 16.0f;
         double want = wall_share(r.place(x, 0).x, 0.8);
-        EXPECT_NEAR(mean.x, want, 0.006) << x;
+        EXPECT_NEAR(mean.x, want, 0.003) << x;
         EXPECT_FLOAT_EQ(mean.z, 4 * mean.x);
     }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "runtime/play/denoise/brightness_p.h"
 #include "runtime/play/denoise/history_kernels.h"
 
 namespace kinora {
@@ -15,10 +16,6 @@ using Row = float[kRun];
 
 #define KINORA_LANE __attribute__((always_inline)) inline
 
-// Of Rec. 709, IEC 61966-2-1.
-KINORA_LANE float brightness(float r, float g, float b) {
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
 KINORA_LANE float larger(float a, float b) {
     return a > b ? a : b;
 }

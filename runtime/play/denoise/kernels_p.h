@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "runtime/play/denoise/brightness_p.h"
 #include "runtime/play/denoise/kernels.h"
 
 namespace kinora {
@@ -12,11 +13,6 @@ namespace {
 
 constexpr size_t kRun = kFilterRun;
 using Row = float[kRun];
-
-// Of Rec. 709, IEC 61966-2-1.
-__attribute__((always_inline)) inline float brightness(float r, float g, float b) {
-    return 0.2126f * r + 0.7152f * g + 0.0722f * b;
-}
 
 constexpr float kOtherDepth = 100;   // one over the share of a depth that planes may lie apart
 constexpr float kOtherAlbedo = 400;  // by its square

@@ -21,8 +21,9 @@ class FirstHits {
     std::vector<float> u, v;
     std::vector<vec3> P, Ng;  // accel space
     // By the number of a shader instance: 1 where a ray of its points, or the sample of a light for
-    // them, was drawn at random, or a light that reaches them calls random(). What a mirror sees of these is sharp, and moves as no surface
-    // does: better noisy than smeared, so it does not count.
+    // them, was drawn at random, or a light that reaches them calls random(). What a mirror sees of
+    // these is sharp, and moves as no surface does: better noisy than smeared, so it does not
+    // count.
     std::vector<uint8_t> noisy;
 
     bool any_noise() const;
