@@ -95,16 +95,25 @@ class Times(ProgramTest):
         frames = json.loads(result.out)["frames"][8:]
         return [sum(frame[key] for frame in frames) / len(frames) for key in ("total_ms", "samples")]
 
-    def test_frames_take_the_time_that_they_were_to_take(self):
+    def times_kept(self):
+        """How far two targets are missed, as shares, and samples of the longer by those of the shorter."""
         # Of what this machine takes for 16 samples now, whatever else it does.
         result = render(WALKER, "-o", "null", "--frames", "1-8", "--size", "40x30", *BLACK,
                         "--quality", "preview", "--spp", "16", "--stats=json")
         frames = json.loads(self.expect(result, 0).out)["frames"]
         ms = max(1, round(sum(frame["total_ms"] for frame in frames) / len(frames)))
         short, long = self.shot(ms), self.shot(3 * ms)
-        self.assertAlmostEqual(short[0] / ms, 1, delta=0.3)
-        self.assertAlmostEqual(long[0] / (3 * ms), 1, delta=0.3)
-        self.assertGreater(long[1], 1.5 * short[1])  # 48 samples to 16, less what a frame takes besides
+        return abs(short[0] / ms - 1), abs(long[0] / (3 * ms) - 1), long[1] / short[1]
+
+    def test_frames_take_the_time_that_they_were_to_take(self):
+        # A machine may change its speed between two runs, though not in each of four tries.
+        tries = []
+        for _ in range(4):
+            tries.append(self.times_kept())
+            short, long, samples = tries[-1]
+            if short < 0.3 and long < 0.3 and samples > 1.5:  # 48 samples to 16, less what a frame takes besides
+                return
+        self.fail(f"none of four tries kept both times: {tries}")
 
     def test_a_time_that_no_settings_reach_is_told(self):
         self.expect(render(WALKER, "-o", "null", "--target-ms", "0.01", *BLACK), 1,
