@@ -51,12 +51,17 @@ function(kinora_precompiled_set name)
     target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-# kinora_kernels(VARIABLE NAME): adds NAME.cpp, which chooses at run time, and for each instruction set a file
-# that compiles NAME_p.h for it (runtime/base/kernel_table.h), to a list of sources.
+# kinora_kernels(VARIABLE NAME [GATHERS]): adds NAME.cpp, which chooses at run time, and for each instruction set a file
+# that compiles NAME_p.h for it (runtime/base/kernel_table.h), to a list of sources. GATHERS: with instructions that
+# gather, which GCC leaves out where it is told no CPU.
 function(kinora_kernels variable name)
     set(options_Portable -O3)
     set(options_Avx2 -O3 -mavx2)
     set(options_Avx512 -O3 -mavx512f -mavx512dq -mavx512vl -mavx512bw -mprefer-vector-width=512)
+    if("GATHERS" IN_LIST ARGN)
+        list(APPEND options_Avx2 -mtune=haswell)
+        list(APPEND options_Avx512 -mtune=skylake-avx512)
+    endif()
     set(instruction_sets Portable)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
         list(APPEND instruction_sets Avx2 Avx512)

@@ -2,14 +2,11 @@
 #include "runtime/play/display.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "runtime/base/check.h"
-#include "runtime/base/parallel.h"
+#include "runtime/play/bytes/shown_bytes.h"
 
 namespace kinora {
 
@@ -133,58 +130,6 @@ raytrace::Film of_picture(const raytrace::Film& film, const DisplaySettings& set
     });
 }
 
-// to_8_bit's bytes from a table: its function of a component grows, so 255 thresholds say it all. A
-// step of the table has one of them at most.
-class Bytes {
-  public:
-    explicit Bytes(ColorEncoding encoding) {
-        std::array<float, 257> least{};  // of each byte
-        for (int v = 1; v < 256; ++v) {
-            uint32_t low = 0, high = std::bit_cast<uint32_t>(2.0f);  // not yet v; v or more
-            while (high - low > 1) {
-                uint32_t middle = low + (high - low) / 2;
-                (byte_of(std::bit_cast<float>(middle), encoding) >= v ? high : low) = middle;
-            }
-            least[size_t(v)] = std::bit_cast<float>(high);
-        }
-        least[256] = std::numeric_limits<float>::infinity();
-        for (uint32_t k = 0; k < steps_.size(); ++k) {
-            float begin = std::bit_cast<float>((kFirst + k) << kShift);
-            const uint32_t v = byte_of(begin, encoding);
-            steps_[k] = {least[v + 1], v};
-            if (k > 0) CHECK_LE(v, steps_[k - 1].byte + 1);
-        }
-    }
-    // c is no NaN.
-    uint8_t operator()(float c) const {
-        c = std::min(std::max(c, std::bit_cast<float>(kFirst << kShift)), 1.0f);
-        const Step& step = steps_[(std::bit_cast<uint32_t>(c) >> kShift) - kFirst];
-        return uint8_t(step.byte + uint32_t(c >= step.next));
-    }
-
-  private:
-    // 128 steps in each power of two, from 2^-14 (byte 0 in either encoding) to 1.
-    static constexpr int kShift = 16;
-    static constexpr uint32_t kFirst = (127 - 14) << 7, kSteps = 14 << 7;
-
-    static uint8_t byte_of(float c, ColorEncoding encoding) {
-        raytrace::Film pixel(1, 1);
-        pixel.rgba[0] = {c, 0, 0, 1};
-        return to_8_bit(pixel, encoding).rgba[0];
-    }
-
-    struct Step {
-        float next = 0;     // from here on it is one more
-        uint32_t byte = 0;  // where it begins
-    };
-    std::array<Step, kSteps + 1> steps_{};  // the last one: 1
-};
-
-const Bytes& bytes_of(ColorEncoding encoding) {
-    static const Bytes linear(ColorEncoding::Linear), srgb(ColorEncoding::Srgb);
-    return encoding == ColorEncoding::Linear ? linear : srgb;
-}
-
 void put_kept(const Picture& kept, double wipe_at, int width, int height,
               std::vector<uint8_t>& out) {
     if (kept.width <= 0 || kept.height <= 0) return;
@@ -203,30 +148,6 @@ void put_kept(const Picture& kept, double wipe_at, int width, int height,
 }
 
 }  // namespace
-
-void fast_8_bit(const raytrace::Film& film, ColorEncoding encoding, std::vector<uint8_t>& out) {
-    const Bytes &color = bytes_of(encoding), &alpha = bytes_of(ColorEncoding::Linear);
-    out.resize(4 * film.rgba.size());
-    parallel_for(0, film.rgba.size(), 4096, [&](size_t begin, size_t end) {
-        for (size_t k = begin; k < end; ++k) {
-            const vec4& p = film.rgba[k];
-            uint8_t* to = &out[4 * k];
-            if (!std::isfinite(p.x + p.y + p.z + p.w)) {
-                raytrace::Film pixel(1, 1);
-                pixel.rgba[0] = p;
-                Image8 image = to_8_bit(pixel, encoding);
-                std::copy_n(image.rgba.begin(), 4, to);
-                continue;
-            }
-            const bool opaque = p.w == 1;
-            const float scale = opaque || !(p.w > 0) ? 1.0f : 1.0f / p.w;
-            const std::array<uint8_t, 4> bytes{color(p.x * scale), color(p.y * scale),
-                                               color(p.z * scale),
-                                               opaque ? uint8_t(255) : alpha(p.w)};
-            std::memcpy(to, bytes.data(), 4);
-        }
-    });
-}
 
 bool shows_guide(const std::string& aov) {
     return aov == "depth" || aov == "Ng" || aov == "surface";
@@ -331,10 +252,17 @@ vec3 false_color(float value) {
     return kStops[k] * (1 - share) + kStops[k + 1] * share;
 }
 
+bool is_plain(const DisplaySettings& settings) {
+    return settings.aov.empty() && settings.tone == ToneCurve::Plain && !settings.false_color;
+}
+
+void show_kept(const DisplaySettings& settings, int width, int height, std::vector<uint8_t>& out) {
+    if (settings.kept) put_kept(*settings.kept, settings.wipe_at, width, height, out);
+}
+
 void display(const raytrace::Film& film, const PictureGuide& guide, const PixelCosts& costs,
              const DisplaySettings& settings, std::vector<uint8_t>& out) {
-    bool plain = settings.aov.empty() && settings.tone == ToneCurve::Plain && !settings.false_color;
-    if (plain)
+    if (is_plain(settings))
         fast_8_bit(film, settings.encoding, out);
     else if (shows_costs(settings.aov))
         fast_8_bit(of_costs(film, costs, settings.aov), ColorEncoding::Srgb, out);
@@ -343,7 +271,7 @@ void display(const raytrace::Film& film, const PictureGuide& guide, const PixelC
     else
         fast_8_bit(settings.aov.empty() ? of_picture(film, settings) : of_aov(film, settings),
                    settings.encoding, out);
-    if (settings.kept) put_kept(*settings.kept, settings.wipe_at, film.width, film.height, out);
+    show_kept(settings, film.width, film.height, out);
 }
 
 }  // namespace kinora

@@ -47,8 +47,9 @@ std::vector<float> shown_numbers(const Picture& picture, const std::string& aov,
 void display(const raytrace::Film& film, const PictureGuide& guide, const PixelCosts& costs,
              const DisplaySettings& settings, std::vector<uint8_t>& out);
 
-// The bytes of to_8_bit, sooner and on all threads.
-void fast_8_bit(const raytrace::Film& film, ColorEncoding encoding, std::vector<uint8_t>& out);
+// Whether a film's colors are shown as they are: by shown_bytes(), and show_kept() over them.
+bool is_plain(const DisplaySettings& settings);
+void show_kept(const DisplaySettings& settings, int width, int height, std::vector<uint8_t>& out);
 
 // Blue over green and yellow to red for 0 .. 1; white above, black below.
 vec3 false_color(float value);

@@ -136,7 +136,7 @@ Place place_at(const PictureGuide& guide, int x, int y) {
     return {guide.surface[k], guide.Ng[k], guide.depth[k]};
 }
 
-constexpr float kAlike = 0.98f;  // on one plane, as most neighbors are: the guide decides nothing
+constexpr float kAlike = 0.8f;   // facing one way within 19 degrees: the guide would decide little
 constexpr float kNoEdge = 0.3f;  // on one surface, at least
 
 // Whether that likeness exceeds `much`, which is far more than kOther; without quotients.
@@ -200,14 +200,13 @@ raytrace::Camera camera_of(const Scene& scene, int width, int height) {
 // One picture made of a smaller one.
 class Enlargement {
   public:
-    Enlargement(const raytrace::Film& small, const PictureGuide& guide, raytrace::Film& out)
+    Enlargement(const raytrace::Film& small, const PictureGuide& guide, int width, int height)
         : small_(small),
           guide_(guide),
-          out_(out),
-          columns_(neighbors(small.width, out.width)),
-          rows_(neighbors(small.height, out.height)),
-          guide_columns_(cells(guide.width, out.width)),
-          guide_rows_(cells(guide.height, out.height)),
+          columns_(neighbors(small.width, width)),
+          rows_(neighbors(small.height, height)),
+          guide_columns_(cells(guide.width, width)),
+          guide_rows_(cells(guide.height, height)),
           centers_(small.rgba.size()),
           alike_(small.rgba.size()) {
         const std::vector<int> x_of = cells(guide.width, small.width),
@@ -219,10 +218,13 @@ class Enlargement {
         each_row(small.height, [&](int y) { find_alike(y); });
     }
 
-    void run() {
-        parallel_for(0, size_t(out_.height), 16, [&](size_t begin, size_t end) {
-            std::vector<vec4> mixed(static_cast<size_t>(small_.width));
-            for (size_t y = begin; y < end; ++y) row(int(y), mixed);
+    void run(TakeRow take) {
+        parallel_for(0, rows_.size(), 16, [&](size_t begin, size_t end) {
+            std::vector<vec4> mixed(static_cast<size_t>(small_.width)), out(columns_.size());
+            for (size_t y = begin; y < end; ++y) {
+                row(int(y), mixed, out);
+                take(int(y), out);
+            }
         });
     }
 
@@ -239,7 +241,7 @@ class Enlargement {
     }
 
     // `mixed`: the two small rows beside this one, by their shares.
-    void row(int y, std::vector<vec4>& mixed) {
+    void row(int y, std::vector<vec4>& mixed, std::vector<vec4>& out) const {
         const Neighbors& v = rows_[size_t(y)];
         const size_t above = at(0, v.index[0]), below = at(0, v.index[1]);
         for (size_t x = 0; x < mixed.size(); ++x) {
@@ -247,13 +249,12 @@ class Enlargement {
                                    v.share[1] * load(small_.rgba[below + x]);
             std::memcpy(&mixed[x], &sum, sizeof(sum));
         }
-        vec4* to = &out_.at(0, y);
-        for (int x = 0; x < out_.width; ++x) {
-            const Neighbors& h = columns_[size_t(x)];
+        for (size_t x = 0; x < out.size(); ++x) {
+            const Neighbors& h = columns_[x];
             FourFloats sum = h.share[0] * load(mixed[size_t(h.index[0])]) +
                              h.share[1] * load(mixed[size_t(h.index[1])]);
-            if (!alike_[above + size_t(h.index[0])]) sum = weighed(x, y);
-            std::memcpy(&to[x], &sum, sizeof(sum));
+            if (!alike_[above + size_t(h.index[0])]) sum = weighed(int(x), y);
+            std::memcpy(&out[x], &sum, sizeof(sum));
         }
     }
 
@@ -276,7 +277,6 @@ class Enlargement {
 
     const raytrace::Film& small_;
     const PictureGuide& guide_;
-    raytrace::Film& out_;
     std::vector<Neighbors> columns_, rows_;
     std::vector<int> guide_columns_, guide_rows_;
     std::vector<Place> centers_;  // at the small pixels' centers
@@ -310,23 +310,33 @@ void refine_guide(const Scene& scene, const PictureGuide& small, int width, int 
     const Centers centers{camera, size_t(width)};
     const std::vector<uint8_t> edges = beside_edges(small);
     const std::vector<int> columns = cells(small.width, width), rows = cells(small.height, height);
-    parallel_for(0, size_t(height), 8, [&](size_t begin, size_t end) {
+    // By squares, so that the rays of a packet run side by side.
+    constexpr size_t kSide = 8;
+    const auto beside = [&](size_t side, size_t length, auto&& body) {
+        for (size_t at = side * kSide; at < std::min((side + 1) * kSide, length); ++at) body(at);
+    };
+    const size_t across = (size_t(width) + kSide - 1) / kSide,
+                 down = (size_t(height) + kSide - 1) / kSide;
+    parallel_for(0, down, 1, [&](size_t begin, size_t end) {
         raytrace::TraceCounters counters;
         std::array<uint32_t, kPacket> some;
         size_t count = 0;
-        for (size_t y = begin; y < end; ++y)
-            for (size_t x = 0; x < size_t(width); ++x) {
-                const size_t pixel = y * size_t(width) + x,
-                             from = size_t(rows[y]) * size_t(small.width) + size_t(columns[x]);
-                guide.surface[pixel] = small.surface[from];
-                guide.Ng[pixel] = small.Ng[from];
-                guide.depth[pixel] = small.depth[from];
-                if (!edges[from]) continue;
-                some[count++] = uint32_t(pixel);
-                if (count < kPacket) continue;
-                trace_packet(scene, centers, some, guide, counters);
-                count = 0;
-            }
+        const auto refine = [&](size_t x, size_t y) {
+            const size_t pixel = y * size_t(width) + x,
+                         from = size_t(rows[y]) * size_t(small.width) + size_t(columns[x]);
+            guide.surface[pixel] = small.surface[from];
+            guide.Ng[pixel] = small.Ng[from];
+            guide.depth[pixel] = small.depth[from];
+            if (!edges[from]) return;
+            some[count++] = uint32_t(pixel);
+            if (count < kPacket) return;
+            trace_packet(scene, centers, some, guide, counters);
+            count = 0;
+        };
+        for (size_t square = begin * across; square < end * across; ++square)
+            beside(square / across, size_t(height), [&](size_t y) {
+                beside(square % across, size_t(width), [&](size_t x) { refine(x, y); });
+            });
         if (count) trace_packet(scene, centers, std::span(some).first(count), guide, counters);
     });
 }
@@ -347,10 +357,17 @@ void take_guide(const FirstHits& hits, const raytrace::Camera& camera, PictureGu
     });
 }
 
+void enlarge_rows(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
+                  TakeRow take) {
+    Enlargement(small, guide, width, height).run(take);
+}
+
 void enlarge(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
              raytrace::Film& out) {
     if (out.width != width || out.height != height) out.resize(width, height);
-    Enlargement(small, guide, out).run();
+    enlarge_rows(small, guide, width, height, [&](int y, std::span<const vec4> row) {
+        std::ranges::copy(row, &out.at(0, y));
+    });
 }
 
 }  // namespace kinora

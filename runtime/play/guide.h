@@ -2,6 +2,9 @@
 // enlarged along the edges that these find.
 #pragma once
 
+#include <span>
+
+#include "runtime/base/parallel.h"
 #include "runtime/play/picture.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/first_hits/first_hits.h"
@@ -24,5 +27,9 @@ void refine_guide(const Scene& scene, const PictureGuide& small, int width, int 
 // nothing.
 void enlarge(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
              raytrace::Film& out);
+// The same row by row, in any order and on all threads: take(y, pixels of the row).
+using TakeRow = FunctionRef<void(int y, std::span<const vec4> pixels)>;
+void enlarge_rows(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
+                  TakeRow take);
 
 }  // namespace kinora

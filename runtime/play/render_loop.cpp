@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/frame/frame.h"
+#include "runtime/play/bytes/shown_bytes.h"
 #include "runtime/play/denoise/denoiser.h"
 #include "runtime/play/guide.h"
 #include "runtime/play/pace/pacer.h"
@@ -39,10 +40,29 @@ void measure_costs(FrameSettings& settings, PixelCosts& costs) {
     settings.integrator.chunk_rays = size_t(kCostTile) * kCostTile;
 }
 
-// The film as the picture shows it, and rays over it.
-void show_film(const raytrace::Film& film, const DisplaySettings& settings, Picture& to) {
-    display(film, to.guide, to.costs, settings, to.rgba);
-    to.numbers = number_scale(film, to.guide, to.costs, settings);
+// The film as bytes; of another size than the picture, it is enlarged on the way.
+void show_film(const DisplaySettings& settings, raytrace::Film& enlarged, Picture& to) {
+    const bool whole = to.film.width == to.width && to.film.height == to.height;
+    if (!whole && is_plain(settings)) {
+        const size_t row = 4 * size_t(to.width);
+        to.rgba.resize(row * size_t(to.height));
+        enlarge_rows(to.film, to.guide, to.width, to.height,
+                     [&](int y, std::span<const vec4> pixels) {
+                         shown_bytes(pixels, settings.encoding, &to.rgba[row * size_t(y)]);
+                     });
+        return show_kept(settings, to.width, to.height, to.rgba);
+    }
+    if (!whole) enlarge(to.film, to.guide, to.width, to.height, enlarged);
+    display(whole ? to.film : enlarged, to.guide, to.costs, settings, to.rgba);
+}
+
+// What the picture shows of its film, what it stands for, and rays over it.
+void show_picture(DisplaySettings settings, raytrace::Film& enlarged, Picture& to) {
+    const bool whole = to.film.width == to.width && to.film.height == to.height;
+    if (!whole && !shows_guide(settings.aov) && !shows_costs(settings.aov))
+        settings.aov.clear();  // planes come with all pixels
+    show_film(settings, enlarged, to);
+    to.numbers = number_scale(to.film, to.guide, to.costs, settings);
     if (settings.rays)
         draw_rays(settings.rays->rays, to.view, to.origin, to.width, to.height, to.rgba);
 }
@@ -550,24 +570,16 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     const Scene& scene = step.scene->seen();
     to.view = scene.view;
     to.origin = scene.origin;
-    const raytrace::Film* film = &to.film;
-    bool small = film->width != to.width || film->height != to.height;
+    const bool small = to.film.width != to.width || to.film.height != to.height;
     if (shows_guide(step.display.aov))
         make_guide(scene, to.width, to.height, to.guide);
-    else if (small && (2 * film->width >= to.width || step.first))
+    else if (small && (2 * to.film.width >= to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
     else if (small)
         guide_small(scene, to);
     else
         to.guide = {};
-    if (small) {
-        enlarge(to.film, to.guide, to.width, to.height, memory_->enlarged);
-        film = &memory_->enlarged;
-    }
-    DisplaySettings display = step.display;
-    if (small && !shows_guide(display.aov) && !shows_costs(display.aov))
-        display.aov.clear();  // planes come with all pixels
-    show_film(*film, display, to);
+    show_picture(step.display, memory_->enlarged, to);
 }
 
 // Rays say where the edges are, beside those that the film's own hits show: a quarter as many as
@@ -595,9 +607,7 @@ void RenderLoop::redisplay(const Step& step) {
     uint64_t serial = to->serial;
     *to = *last;
     to->serial = serial;
-    bool small = to->film.width != to->width || to->film.height != to->height;
-    if (small) enlarge(to->film, to->guide, to->width, to->height, memory_->enlarged);
-    show_film(small ? memory_->enlarged : to->film, step.display, *to);
+    show_picture(step.display, memory_->enlarged, *to);
     publish(std::move(to));
 }
 

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "runtime/frame/frame.h"
+#include "runtime/play/bytes/byte_kernels.h"
+#include "runtime/play/bytes/shown_bytes.h"
 #include "runtime/play/guide.h"
 #include "runtime/programs/open/open_scene.h"
 #include "tests/runtime/play/played.h"
@@ -27,6 +29,7 @@ raytrace::Film random_film() {
         if (number() < 0.1f) pixel.w = 0;
         if (number() < 0.02f) pixel.x = std::numeric_limits<float>::quiet_NaN();
         if (number() < 0.02f) pixel.y = std::numeric_limits<float>::infinity();
+        if (&pixel - film.rgba.data() >= 256 * 32) pixel.w = 1;  // as most pictures are
         if (number() < 0.1f) pixel.z = std::exp2(-30 * number());
     }
     return film;
@@ -40,6 +43,11 @@ TEST(Display, IsThePngOfTheFilm) {
         settings.encoding = encoding;
         display(film, {}, {}, settings, shown);
         EXPECT_EQ(shown, to_8_bit(film, encoding).rgba);
+        for (size_t number = 0; number < usable_byte_kernels().count; ++number) {
+            std::ranges::fill(shown, uint8_t(0));
+            shown_bytes(film.rgba, encoding, shown.data(), *usable_byte_kernels().kernels[number]);
+            EXPECT_EQ(shown, to_8_bit(film, encoding).rgba);
+        }
     }
 }
 
@@ -58,9 +66,13 @@ TEST(Display, HasTheSameBytesAtEveryThreshold) {
         }
     }
     film.width = int(film.rgba.size());
-    std::vector<uint8_t> shown;
-    fast_8_bit(film, ColorEncoding::Srgb, shown);
-    EXPECT_EQ(shown, to_8_bit(film, ColorEncoding::Srgb).rgba);
+    const std::vector<uint8_t> expected = to_8_bit(film, ColorEncoding::Srgb).rgba;
+    for (size_t number = 0; number < usable_byte_kernels().count; ++number) {
+        const ByteKernels& kernels = *usable_byte_kernels().kernels[number];
+        std::vector<uint8_t> shown(4 * film.rgba.size());
+        shown_bytes(film.rgba, ColorEncoding::Srgb, shown.data(), kernels);
+        EXPECT_EQ(shown, expected) << kernels.name;
+    }
 }
 
 TEST(Display, FalseColorsGrowFromBlackOverBlueToRedAndWhite) {
