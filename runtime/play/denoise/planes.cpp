@@ -134,13 +134,15 @@ bool fill_planes(const Scene& scene, const FirstHits& hits, const raytrace::Film
 }
 
 void take_colors(const Planes& planes, raytrace::Film& film) {
-    for (int y = 0; y < film.height; ++y)
-        for (int x = 0; x < film.width; ++x) {
-            const size_t from = planes.at(x, y);
-            if (!(planes.variance[from] > 0)) continue;
-            vec4& to = film.at(x, y);
-            for (int k = 0; k < 4; ++k) to[k] = planes.c[k][from];
-        }
+    parallel_for(0, size_t(film.height), kRowsOfTask, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y)
+            for (int x = 0; x < film.width; ++x) {
+                const size_t from = planes.at(x, int(y));
+                if (!(planes.variance[from] > 0)) continue;
+                vec4& to = film.at(x, int(y));
+                for (int k = 0; k < 4; ++k) to[k] = planes.c[k][from];
+            }
+    });
 }
 
 }  // namespace kinora
