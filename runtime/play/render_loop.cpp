@@ -77,7 +77,7 @@ struct RenderLoop::Memory {
     Pacer pacer;
     FirstHits first;      // of the picture in work
     PictureGuide hits;    // they, where it is small
-    double guide_ms = 0;  // of its rays that say where edges are: pictures of more pixels need none
+    double guide_ms = 0;  // of its rays that say where edges are (Pacer::kNeedsGuide)
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
     std::shared_ptr<ShownScene> filtered;
@@ -469,11 +469,10 @@ void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
         cut = work_.cut && !whole;
     }
     Pacer& pacer = memory_->pacer;
-    const double ms = times.total - memory_->guide_ms;
     if (cut)
-        pacer.cut(ms, fixed);
-    else if (whole || pacer.is_late(ms))
-        pacer.add(ms, fixed);
+        pacer.cut(times.total, fixed);
+    else if (whole || pacer.is_late(times.total))
+        pacer.add(times.total, fixed, memory_->guide_ms);
 }
 
 bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
@@ -573,7 +572,7 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     const bool small = to.film.width != to.width || to.film.height != to.height;
     if (shows_guide(step.display.aov))
         make_guide(scene, to.width, to.height, to.guide);
-    else if (small && (2 * to.film.width >= to.width || step.first))
+    else if (small && (to.film.width >= Pacer::kNeedsGuide * to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
     else if (small)
         guide_small(scene, to);

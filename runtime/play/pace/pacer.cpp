@@ -45,8 +45,9 @@ void Pacer::begin() {
 // What a frame of that size would take, as a share of what it may. The smallest usual one and those
 // behind it may take longer.
 double Pacer::load(const Cost& cost, size_t step) const {
-    const double pixels = cost.whole * scale_of(step) * scale_of(step);
-    const double usual = (cost.fixed + pixels) / target_;
+    const double scale = scale_of(step), pixels = cost.whole * scale * scale;
+    const double guide = scale < kNeedsGuide ? cost.guide : 0;
+    const double usual = (cost.fixed + guide + pixels) / target_;
     return step + 1 < kUsualSteps ? usual : std::min(usual, pixels / (kSmallMay * target_));
 }
 
@@ -66,10 +67,11 @@ double Pacer::most_load(size_t step, size_t frames) const {
     return most;
 }
 
-void Pacer::remember(double ms, double fixed_ms) {
+void Pacer::remember(double ms, double fixed_ms, double guide_ms) {
     std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());
     const double fixed = std::clamp(fixed_ms, 0.0, ms);
-    recent_[0] = {(ms - fixed) / (scale() * scale()), fixed};
+    const double guide = std::clamp(guide_ms, 0.0, ms - fixed);
+    recent_[0] = {(ms - fixed - guide) / (scale() * scale()), fixed, guide};
     known_ = std::min(known_ + 1, kWindow);
     since_larger_ = std::min(since_larger_ + 1, kMostPatience);
 }
@@ -101,13 +103,13 @@ void Pacer::grow() {
     since_larger_ = 0;
 }
 
-void Pacer::add(double ms, double fixed_ms) {
+void Pacer::add(double ms, double fixed_ms, double guide_ms) {
     in_vain_ = 0;
     if (std::exchange(first_, false)) {  // with what is done once, it says little of the others
         if (ms <= target_) step_ = 0;
         return;
     }
-    remember(ms, fixed_ms);
+    remember(ms, fixed_ms, guide_ms);
     if (load_at(step_, kFew) > kMuch && shrink(kFew)) return;
     if (known_ == kWindow && shrink(kWindow)) return;
     calm_ = step_ > 0 && load(recent_[0], step_ - 1) <= kRoom ? calm_ + 1 : 0;
@@ -126,7 +128,7 @@ void Pacer::cut(double ms, double fixed_ms) {
     first_ = false;
     known_ = 0;
     in_vain_ += ms;
-    remember(ms, fixed_ms);
+    remember(ms, fixed_ms, 0);
     become_smaller(std::min(step_ + kCutSteps, kSteps - 1));
 }
 

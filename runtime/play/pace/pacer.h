@@ -13,8 +13,9 @@ class Pacer {
     void aim_at(double frame_ms) { target_ = frame_ms; }
     // Share of the picture's width and height that the next frame is to have: 1 .. the last step's.
     double scale() const;
-    // The last frame, of that scale, took so many ms; so many of these whatever its size.
-    void add(double ms, double fixed_ms = 0);
+    // The last frame, of that scale, took so many ms; so many of these whatever its size, and so
+    // many for what only pictures need that are less than kNeedsGuide as wide (their edges).
+    void add(double ms, double fixed_ms = 0, double guide_ms = 0);
     bool is_late(double ms) const { return ms > target_; }
     // Another scene, of which nothing is known: its first frame has few pixels.
     void begin();
@@ -29,6 +30,7 @@ class Pacer {
     // frames that even so would take several times what they may.
     static constexpr size_t kUsualSteps = 17, kSteps = 33;
     static double scale_of(size_t step);
+    static constexpr double kNeedsGuide = 0.5;
 
   private:
     static constexpr size_t kFew = 3;      // frames that say that it is too slow by much
@@ -40,11 +42,12 @@ class Pacer {
 
     struct Cost {
         double whole = 0, fixed = 0;  // ms: of all pixels, and whatever their number
+        double guide = 0;             // where there are few
     };
     double load(const Cost& cost, size_t step) const;
     double load_at(size_t step, size_t frames) const;
     double most_load(size_t step, size_t frames) const;
-    void remember(double ms, double fixed_ms);
+    void remember(double ms, double fixed_ms, double guide_ms);
     bool shrink(size_t frames);
     void become_smaller(size_t step);
     void grow();

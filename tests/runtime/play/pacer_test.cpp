@@ -104,6 +104,28 @@ TEST(Pacer, SpendsTheTimeThatItHas) {
         }
 }
 
+// What small pictures need besides counts where they are small, and keeps none from becoming larger.
+TEST(Pacer, CountsWhatSmallPicturesNeed) {
+    constexpr double kGuide = 4;
+    for (double fixed : {0.0, 8.0})
+        for (double whole : {40.0, 60.0, 75.0, 95.0, 110.0, 125.0, 140.0, 200.0}) {
+            Pacer pacer = pacer_at_target();
+            const auto guide = [&] { return pacer.scale() < Pacer::kNeedsGuide ? kGuide : 0.0; };
+            std::vector<double> scale;
+            double ms = 0;
+            for (int k = 0; k < 1000; ++k) {
+                scale.push_back(pacer.scale());
+                ms = fixed + guide() + whole * pacer.scale() * pacer.scale();
+                pacer.add(ms, fixed, guide());
+            }
+            EXPECT_LE(ms, kTarget) << fixed << " " << whole;
+            EXPECT_LE(changes(scale, 40), 8) << fixed << " " << whole;
+            const double larger = pacer.scale() * std::exp2(0.125);
+            const double more = larger < Pacer::kNeedsGuide - 1e-6 ? kGuide : 0;
+            EXPECT_GT(fixed + more + whole * larger * larger, 0.95 * kTarget) << fixed << " " << whole;
+        }
+}
+
 // A scene of which nothing is known: a picture soon, then all pixels, where even few fit.
 TEST(Pacer, BeginsWithTheFewestPixels) {
     Pacer pacer = pacer_at_target();
