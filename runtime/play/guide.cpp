@@ -365,9 +365,8 @@ void enlarge_rows(const raytrace::Film& small, const PictureGuide& guide, int wi
 void enlarge(const raytrace::Film& small, const PictureGuide& guide, int width, int height,
              raytrace::Film& out) {
     if (out.width != width || out.height != height) out.resize(width, height);
-    enlarge_rows(small, guide, width, height, [&](int y, std::span<const vec4> row) {
-        std::ranges::copy(row, &out.at(0, y));
-    });
+    enlarge_rows(small, guide, width, height,
+                 [&](int y, std::span<const vec4> row) { std::ranges::copy(row, &out.at(0, y)); });
 }
 
 }  // namespace kinora

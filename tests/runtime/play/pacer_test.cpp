@@ -104,7 +104,8 @@ TEST(Pacer, SpendsTheTimeThatItHas) {
         }
 }
 
-// What small pictures need besides counts where they are small, and keeps none from becoming larger.
+// What small pictures need besides counts where they are small, and keeps none from becoming
+// larger.
 TEST(Pacer, CountsWhatSmallPicturesNeed) {
     constexpr double kGuide = 4;
     for (double fixed : {0.0, 8.0})
@@ -122,7 +123,8 @@ TEST(Pacer, CountsWhatSmallPicturesNeed) {
             EXPECT_LE(changes(scale, 40), 8) << fixed << " " << whole;
             const double larger = pacer.scale() * std::exp2(0.125);
             const double more = larger < Pacer::kNeedsGuide - 1e-6 ? kGuide : 0;
-            EXPECT_GT(fixed + more + whole * larger * larger, 0.95 * kTarget) << fixed << " " << whole;
+            EXPECT_GT(fixed + more + whole * larger * larger, 0.95 * kTarget)
+                << fixed << " " << whole;
         }
 }
 
