@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "runtime/frame/frame.h"
-#include "runtime/play/bytes/shown_bytes.h"
 #include "runtime/play/denoise/denoiser.h"
 #include "runtime/play/guide.h"
 #include "runtime/play/pace/pacer.h"
 #include "runtime/play/pace/patience.h"
-#include "runtime/play/pixel/draw_rays.h"
+#include "runtime/play/show_picture.h"
 #include "runtime/scene/camera.h"
 
 namespace kinora {
@@ -38,33 +37,6 @@ void measure_costs(FrameSettings& settings, PixelCosts& costs) {
     settings.insight.costs = &costs;
     settings.integrator.tile = kCostTile;
     settings.integrator.chunk_rays = size_t(kCostTile) * kCostTile;
-}
-
-// The film as bytes; of another size than the picture, it is enlarged on the way.
-void show_film(const DisplaySettings& settings, raytrace::Film& enlarged, Picture& to) {
-    const bool whole = to.film.width == to.width && to.film.height == to.height;
-    if (!whole && is_plain(settings)) {
-        const size_t row = 4 * size_t(to.width);
-        to.rgba.resize(row * size_t(to.height));
-        enlarge_rows(to.film, to.guide, to.width, to.height,
-                     [&](int y, std::span<const vec4> pixels) {
-                         shown_bytes(pixels, settings.encoding, &to.rgba[row * size_t(y)]);
-                     });
-        return show_kept(settings, to.width, to.height, to.rgba);
-    }
-    if (!whole) enlarge(to.film, to.guide, to.width, to.height, enlarged);
-    display(whole ? to.film : enlarged, to.guide, to.costs, settings, to.rgba);
-}
-
-// What the picture shows of its film, what it stands for, and rays over it.
-void show_picture(DisplaySettings settings, raytrace::Film& enlarged, Picture& to) {
-    const bool whole = to.film.width == to.width && to.film.height == to.height;
-    if (!whole && !shows_guide(settings.aov) && !shows_costs(settings.aov))
-        settings.aov.clear();  // planes come with all pixels
-    show_film(settings, enlarged, to);
-    to.numbers = number_scale(to.film, to.guide, to.costs, settings);
-    if (settings.rays)
-        draw_rays(settings.rays->rays, to.view, to.origin, to.width, to.height, to.rgba);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+// runtime/play/show_picture.h: what a picture shows of its film.
+#pragma once
+
+#include "runtime/play/display.h"
+#include "runtime/play/picture.h"
+
+namespace kinora {
+
+// Fills `rgba` and `numbers` of a picture that has all else, and draws rays over it. A film of
+// another size is enlarged by the guide, through `enlarged` where bytes alone do not do.
+void show_picture(DisplaySettings settings, raytrace::Film& enlarged, Picture& to);
+
+}  // namespace kinora
