@@ -96,10 +96,10 @@ struct PlayerCore {
     bool cancel_open();  // the scene that is being read is not wanted any more; false: none is
     void keep_scene();   // another one could not be opened
     CommandResult act(size_t row, const std::vector<std::string>& arguments);
+    void note_stop();  // the picture shown, as a stop of the slider of qualities
 
   private:
     void take_text(const ShownScene& shown);
-    void note_stop();
     void order_thumbnails();
     void take_scene(std::unique_ptr<ShownScene> shown);
     void take_swap(ShownScene& shown);

@@ -180,7 +180,12 @@ bool Player::wait_loaded(double seconds) {
 
 bool Player::wait_idle(double seconds) {
     core_->send_order();
-    return core_->wait_for([&] { return core_->idle(); }, seconds);
+    const auto idle = [&] {
+        if (!core_->idle()) return false;
+        core_->note_stop();  // of a picture that came since the last look
+        return core_->idle();
+    };
+    return core_->wait_for(idle, seconds);
 }
 
 bool Player::wait_picture(double seconds) {
