@@ -12,7 +12,7 @@
 #include "runtime/explain/explain.h"
 #include "runtime/images/texture_store.h"
 #include "runtime/play/clock.h"
-#include "runtime/play/guide.h"
+#include "runtime/play/picture/guide.h"
 #include "runtime/trade/knobs.h"
 
 namespace kinora {
@@ -247,8 +247,13 @@ bool PlayerCore::cancel_open() {
     return true;
 }
 
-bool PlayerCore::picture_ready() const {
-    return maker.idle() && loop.caught_up() && (loop.picture() || loop.idle());
+std::optional<uint64_t> PlayerCore::ordered() const {
+    if (!maker.idle()) return std::nullopt;
+    return loop.ordered();
+}
+
+bool PlayerCore::picture_ready(uint64_t ordered) const {
+    return loop.has_made(ordered) && (loop.picture() || loop.idle());
 }
 
 // What a new scene begins with instead of its own beginning.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/images/image_io.h"
-#include "runtime/play/picture.h"
+#include "runtime/play/picture/picture.h"
 #include "runtime/play/state.h"
 
 namespace kinora {

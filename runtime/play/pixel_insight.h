@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "runtime/play/picture.h"
+#include "runtime/play/picture/picture.h"
 #include "runtime/play/pixel/pixel_story.h"
 #include "runtime/play/render_loop.h"
 #include "runtime/play/state.h"

@@ -158,8 +158,11 @@ std::vector<std::shared_ptr<const Thumbnail>> Player::thumbnails() const {
 bool Player::idle() const {
     return core_->idle();
 }
-bool Player::picture_ready() const {
-    return core_->picture_ready();
+std::optional<uint64_t> Player::ordered() const {
+    return core_->ordered();
+}
+bool Player::picture_ready(uint64_t ordered) const {
+    return core_->picture_ready(ordered);
 }
 bool Player::real_time() const {
     return core_->setup.real_time;
@@ -190,7 +193,12 @@ bool Player::wait_idle(double seconds) {
 
 bool Player::wait_picture(double seconds) {
     core_->send_order();
-    return core_->wait_for([&] { return core_->picture_ready(); }, seconds);
+    std::optional<uint64_t> awaited;
+    const auto ready = [&] {
+        if (!awaited) awaited = core_->ordered();
+        return awaited && core_->picture_ready(*awaited);
+    };
+    return core_->wait_for(ready, seconds);
 }
 
 }  // namespace kinora

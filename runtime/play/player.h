@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "runtime/play/commands.h"
-#include "runtime/play/picture.h"
+#include "runtime/play/picture/picture.h"
 #include "runtime/play/scene_info.h"
 #include "runtime/play/session/session.h"
 #include "runtime/play/shader_document.h"
@@ -82,7 +82,10 @@ class Player {
 
     // Nothing is left to do: the picture is refined, or cannot be made.
     bool idle() const;
-    bool picture_ready() const;  // of the state as it is, refined or not
+    // Stands for all that was done up to now; none while scenes or shaders are still being made.
+    std::optional<uint64_t> ordered() const;
+    // Whether there is a picture of that or of something later, refined or not.
+    bool picture_ready(uint64_t ordered) const;
     bool real_time() const;
     uint64_t frames_rendered() const;  // begun, so far
     MakerCounts made() const;
@@ -91,7 +94,7 @@ class Player {
     // seconds.
     bool wait_loaded(double seconds);
     bool wait_idle(double seconds);
-    bool wait_picture(double seconds);  // until picture_ready()
+    bool wait_picture(double seconds);  // until picture_ready() of what was done up to now
 
     // Each command that was done, as lines of a script, with the time that went by between them.
     // False where the file cannot be written.

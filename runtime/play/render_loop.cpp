@@ -10,9 +10,9 @@
 
 #include "runtime/frame/frame.h"
 #include "runtime/play/denoise/denoiser.h"
-#include "runtime/play/guide.h"
 #include "runtime/play/pace/pacer.h"
 #include "runtime/play/pace/patience.h"
+#include "runtime/play/picture/guide.h"
 #include "runtime/play/show_picture.h"
 #include "runtime/scene/camera.h"
 
@@ -103,7 +103,7 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
         scene_ = std::move(scene);
         if (scene_->replaces_camera) begins_ = true;
         swaps_.clear();
-        next_ = Pass::Quick;
+        want_picture();
         stop_ = 1;
     }
     wanted_.notify_one();
@@ -113,10 +113,16 @@ void RenderLoop::swap(SwappedShaders shaders) {
     {
         std::lock_guard lock(mutex_);
         swaps_.push_back(std::move(shaders));
-        next_ = Pass::Quick;
+        want_picture();
         stop_ = 1;
     }
     wanted_.notify_one();
+}
+
+// With the lock.
+void RenderLoop::want_picture() {
+    next_ = Pass::Quick;
+    ++count_.ordered;
 }
 
 void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
@@ -134,10 +140,10 @@ void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
             display_changed_ = true;
         }
         if (!same) {
-            next_ = Pass::Quick;
+            want_picture();
             if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;
         } else if ((refines_now || quality_changed) && next_ == Pass::Done) {
-            next_ = Pass::Quick;
+            want_picture();
         }
     }
     wanted_.notify_one();
@@ -181,7 +187,7 @@ std::vector<StageTimes> RenderLoop::times() const {
 
 uint64_t RenderLoop::frames() const {
     std::lock_guard lock(mutex_);
-    return frames_;
+    return count_.begun;
 }
 
 bool RenderLoop::idle() const {
@@ -190,10 +196,14 @@ bool RenderLoop::idle() const {
                                      questions_.empty() && answers_.empty()));
 }
 
-bool RenderLoop::caught_up() const {
+uint64_t RenderLoop::ordered() const {
     std::lock_guard lock(mutex_);
-    bool quick_to_come = next_ == Pass::Quick || (in_work_ && in_work_->pass == Pass::Quick);
-    return !scene_ || !quick_to_come;
+    return count_.ordered;
+}
+
+bool RenderLoop::has_made(uint64_t ordered) const {
+    std::lock_guard lock(mutex_);
+    return !scene_ || count_.made >= ordered;
 }
 
 void RenderLoop::run() {
@@ -206,7 +216,7 @@ void RenderLoop::run() {
         working_ = true;
         bool renders = !step->question && !step->display_only;
         if (renders) {
-            ++frames_;
+            ++count_.begun;
             step->first = begins_;
             memory_->pace(step->scene, begins_);
             memory_->pacer.aim_at(1000 / std::max(step->order.hold_rate, 1e-3));
@@ -304,6 +314,7 @@ std::optional<RenderLoop::Step> RenderLoop::next_step() {
     }
     display_changed_ = false;
     step.pass = next_;
+    step.ordered = count_.ordered;
     // The order in work: a newer one sets `next_` again.
     next_ = Pass::Done;
     return step;
@@ -356,6 +367,7 @@ RenderLoop::Pass RenderLoop::after(const Step& step) const {
 void RenderLoop::finish(const Step& step, const Outcome& outcome) {
     times_.push_back(outcome.times);
     if (times_.size() > kTimes) times_.pop_front();
+    if (outcome.whole || !stop_) count_.made = step.ordered;
     if (next_ != Pass::Done) return;  // a newer order
     if (outcome.whole)
         next_ = after(step);

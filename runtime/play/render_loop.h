@@ -47,12 +47,17 @@ class RenderLoop {
     std::vector<StageTimes> times() const;
     uint64_t frames() const;  // begun
     bool idle() const;        // nothing left to do for the last order
-    bool caught_up() const;   // the last order has a picture, refined or not
+    // Counts what needs another picture: orders, scenes, shaders.
+    uint64_t ordered() const;
+    // Whether what was ordered by then has a picture, refined or not, or none can be made.
+    bool has_made(uint64_t ordered) const;
+    bool caught_up() const { return has_made(ordered()); }
 
   private:
     enum class Pass : uint8_t { Quick, Whole, Some, Refined, Done };
     struct Step {
         Pass pass = Pass::Quick;
+        uint64_t ordered = 0;
         ViewOrder order;
         DisplaySettings display;
         std::shared_ptr<ShownScene> scene;
@@ -68,6 +73,7 @@ class RenderLoop {
         StageTimes times;
     };
 
+    void want_picture();
     void run();
     void end_late_frames();
     bool is_overtaken() const;
@@ -118,7 +124,10 @@ class RenderLoop {
         bool cut = false;  // it took longer
     } work_;
     const Stopwatch since_start_;
-    uint64_t frames_ = 0;
+    struct {
+        uint64_t ordered = 0, made = 0;  // see ordered(), has_made()
+        uint64_t begun = 0;
+    } count_;
     // Of the thread.
     std::atomic<int> stop_{0};
     struct Memory;

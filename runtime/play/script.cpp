@@ -78,19 +78,27 @@ Script::Progress Script::step(std::string_view text) {
     std::optional<double> seconds;
     if (words.texts.size() == 2 && words.texts[0] == "wait") seconds = one_number(words.texts[1]);
     if (seconds && *seconds >= 0) done = true;  // they are over
-    return finish(words, done ? CommandResult{} : line(words)) ? Progress::Done : Progress::Failed;
+    done = finish(words, done ? CommandResult{} : line(words));
+    awaited_.reset();
+    return done ? Progress::Done : Progress::Failed;
 }
 
 // What line() would wait for is not there yet.
-bool Script::has_to_wait(const Words& words) const {
+bool Script::has_to_wait(const Words& words) {
     const std::string& word = words.texts.front();
     bool loading = player_.load_state() == LoadState::Loading;
     if (word != "wait") return loading && word != "quit";
     std::string what = words.texts.size() == 2 ? words.texts[1] : "";
     if (std::optional<double> seconds = one_number(what)) return since_->ms() < 1000 * *seconds;
-    if (what == "picture") return loading || !player_.picture_ready();
+    if (what == "picture") return loading || waits_for_picture();
     if (what == "refined") return loading || !player_.idle();
     return what == "loaded" && loading;
+}
+
+// Not for one of this moment: while a scene plays, the next one is always still to come.
+bool Script::waits_for_picture() {
+    if (!awaited_) awaited_ = player_.ordered();
+    return !awaited_ || !player_.picture_ready(*awaited_);
 }
 
 CommandResult Script::line(const Words& words) {
@@ -128,7 +136,7 @@ CommandResult Script::wait(const Words& words) {
         return {};
     }
     if (what == "loaded") player_.wait_loaded(kPatience);
-    if (what == "picture") player_.wait_picture(kPatience);
+    if (what == "picture" && !awaited_) player_.wait_picture(kPatience);
     if (what == "refined") player_.wait_idle(kPatience);
     if (what != "loaded" && what != "picture" && what != "refined")
         return unknown("wait", words, 1, {"SECONDS", "loaded", "picture", "refined"});

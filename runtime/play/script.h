@@ -29,7 +29,8 @@ class Script {
 
   private:
     bool finish(const Words& words, const CommandResult& result);
-    bool has_to_wait(const Words& words) const;
+    bool has_to_wait(const Words& words);
+    bool waits_for_picture();
     CommandResult line(const Words& words);
     CommandResult wait(const Words& words);
     CommandResult expect(const Words& words);
@@ -41,8 +42,9 @@ class Script {
     Player& player_;
     std::string name_;
     std::function<void(const std::string&)> report_;
-    int number_ = 0;                  // of the line
-    std::optional<Stopwatch> since_;  // the line that waits
+    int number_ = 0;                   // of the line
+    std::optional<Stopwatch> since_;   // the line that waits
+    std::optional<uint64_t> awaited_;  // the picture that it waits for (Player::ordered)
 };
 
 }  // namespace kinora

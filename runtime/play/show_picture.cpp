@@ -2,7 +2,7 @@
 #include "runtime/play/show_picture.h"
 
 #include "runtime/play/bytes/shown_bytes.h"
-#include "runtime/play/guide.h"
+#include "runtime/play/picture/guide.h"
 #include "runtime/play/pixel/draw_rays.h"
 
 namespace kinora {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "runtime/play/display.h"
-#include "runtime/play/picture.h"
+#include "runtime/play/picture/picture.h"
 
 namespace kinora {
 

@@ -221,6 +221,28 @@ TEST(Script, StepsDoNotWait) {
     EXPECT_EQ(other.step("orbit \"3"), Failed);
 }
 
+// Each turn moves the clock on, as a window's do: what is awaited is a picture of the wait's
+// beginning or later, and not one of a moment that is over when it comes.
+TEST(Script, APictureComesWhileTheSceneGoesOn) {
+    Played played(small_request(scene_path("scenes/walker.dae")), {true, false, nullptr});
+    std::string said;
+    Script script(played.player, "steps", [&](const std::string& line) { said += line; });
+    using enum Script::Progress;
+    ASSERT_TRUE(played.player.wait_idle(60));
+    const uint64_t still = played.player.picture()->serial;
+    ASSERT_EQ(script.step("play"), Done);
+    int turns = 0;
+    const auto turn = [&] {
+        played.player.advance(0.001);
+        usleep(1000);
+        return script.step("wait picture") == Waits && ++turns < 60'000;
+    };
+    while (turn()) continue;
+    EXPECT_LT(turns, 60'000);
+    EXPECT_NE(played.player.picture()->serial, still);
+    EXPECT_EQ(said, "");
+}
+
 TEST(Script, StateIsWrittenAsItIsObserved) {
     Played played("scenes/walker.dae");
     std::string file = testing::TempDir() + "kinora_play_state.json";

@@ -10,7 +10,7 @@
 #include "runtime/frame/frame.h"
 #include "runtime/play/bytes/byte_kernels.h"
 #include "runtime/play/bytes/shown_bytes.h"
-#include "runtime/play/guide.h"
+#include "runtime/play/picture/guide.h"
 #include "runtime/programs/open/open_scene.h"
 #include "tests/runtime/play/played.h"
 

@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "runtime/base/stats.h"
-#include "runtime/play/picture.h"
+#include "runtime/play/picture/picture.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {

@@ -1,7 +1,8 @@
-// runtime/play/guide.cpp: first hits of all pixels, and joint bilateral enlargement by them.
+// runtime/play/picture/guide.cpp: first hits of all pixels, and joint bilateral enlargement by
+// them.
 //
 // J. Kopf, M. Cohen, D. Lischinski, M. Uyttendaele, Joint Bilateral Upsampling, 2007.
-#include "runtime/play/guide.h"
+#include "runtime/play/picture/guide.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
-// runtime/play/guide.h: what is at each pixel, by rays through their centers; and small pictures
-// enlarged along the edges that these find.
+// runtime/play/picture/guide.h: what is at each pixel, by rays through their centers; and small
+// pictures enlarged along the edges that these find.
 #pragma once
 
 #include <span>
 
 #include "runtime/base/parallel.h"
-#include "runtime/play/picture.h"
+#include "runtime/play/picture/picture.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/first_hits/first_hits.h"
 

@@ -1,5 +1,5 @@
-// runtime/play/picture.h: a picture that the render thread has finished. It does not change any
-// more; who holds the pointer may read it from any thread.
+// runtime/play/picture/picture.h: a picture that the render thread has finished. It does not change
+// any more; who holds the pointer may read it from any thread.
 #pragma once
 
 #include <cstdint>
@@ -41,12 +41,12 @@ struct Picture {
     std::vector<uint8_t> rgba;  // to show: sRGB, not associated, rows from the top
     // As rendered: `film` is smaller than the picture where `scale` < 1. Linear, associated.
     raytrace::Film film;
-    PictureGuide guide;     // empty where nothing was asked of it
-    PixelCosts costs;       // of the film's size; empty where nobody asked
+    PictureGuide guide;                  // empty where nothing was asked of it
+    PixelCosts costs;                    // of the film's size; empty where nobody asked
     std::optional<NumberScale> numbers;  // where `rgba` shows some
-    raytrace::Camera view;  // that made it
-    dvec3 origin{0.0};      // of the view's space, in the world
-    double frame = 0;       // of the scene's time
+    raytrace::Camera view;               // that made it
+    dvec3 origin{0.0};                   // of the view's space, in the world
+    double frame = 0;                    // of the scene's time
     double scale = 1;
     int samples = 0;  // a pixel
     // All samples that kinora-render takes, at full size: the same bits as in its file.
