@@ -5,10 +5,12 @@
 // Importers (import_collada, later import_gltf) fill this; build_scene makes a Scene of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "anim/animation.h"
@@ -27,6 +29,10 @@ struct ValueSlot {
     uint32_t offset = kNone;
     uint32_t count = 0;
     bool present() const { return offset != kNone; }
+    // Where component `c` of `needed` stands; one number may stand for all of them.
+    uint32_t component(uint32_t needed, uint32_t c) const {
+        return offset + (count == 1 && needed > 1 ? 0 : std::min(c, count - 1));
+    }
 };
 
 // Whose numbers a channel writes; the bit that a change sets. Node bits are per definition.
@@ -156,6 +162,13 @@ struct ShaderUse {
     std::shared_ptr<const rsl::Shader> shader;
     std::vector<ParamSource> params;
     bool linear_inputs = false;  // reads kLinearColor in place of COLOR where there is one
+
+    // What a parameter is bound to; null: to nothing.
+    const ParamSource* find(std::string_view name) const {
+        for (const ParamSource& source : params)
+            if (source.name == name) return &source;
+        return nullptr;
+    }
 };
 
 struct MaterialDefinition {

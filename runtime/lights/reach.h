@@ -11,10 +11,11 @@ namespace kinora {
 // No light arrives outside the cone about the axis, nor farther than the range.
 struct LightReach {
     dvec3 apex{0.0}, axis{0.0, 0.0, 1.0};  // axis of length 1, from the light
-    double half_angle = kPi;               // radians; kPi: all around
+    double cosine = -1, sine = 0;          // of the cone's half angle; all around as it stands
     double range = std::numeric_limits<double>::infinity();
-    bool black = false;  // none is sent now
-    bool bounded() const { return black || half_angle < kPi || range < kEndless; }
+    bool black = false;                  // none is sent now
+    void set_cone(double half_radians);  // and a little wider: kernels compute in floats
+    bool bounded() const { return black || cosine > -1 || range < kEndless; }
 
     static constexpr double kEndless = std::numeric_limits<double>::infinity();
 };

@@ -171,7 +171,7 @@ LightReach LightBindings::reach(const Scene& scene, size_t light) const {
         const dmat4 current = kinora::current_from_space(scene, "shader", look.space_owner());
         reach.apex = dvec3(current[3]);
         reach.axis = glm::normalize(dvec3(current[2]));
-        if (*row.angle) reach.half_angle = std::abs(number(row.angle)) * row.half_radians;
+        if (*row.angle) reach.set_cone(std::abs(number(row.angle)) * row.half_radians);
         if (const double range = *row.range ? number(row.range) : 0; range > 0)
             reach.range = range * number("unit");
     }

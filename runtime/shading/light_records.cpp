@@ -113,27 +113,6 @@ void LightRecords::begin_frame(bool all) {
     reaches_.resize(frame_.scene.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l)
         if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, l);
-    find_absent();
-}
-
-// By the box of the whole scene, so that it is the same for all grids.
-void LightRecords::find_absent() {
-    absent_.assign(reaches_.size(), 0);
-    Sphere scene;
-    const bool bounded =
-        std::ranges::any_of(reaches_, [](const LightReach& reach) { return reach.bounded(); });
-    if (bounded) {
-        vec3 low, high;
-        frame_.scene.accel.bounds(low, high);
-        const dmat3 current(frame_.camera_from_accel);
-        const dvec3 half = 0.5 * (dvec3(high) - dvec3(low));
-        scene.center = current * (0.5 * (dvec3(high) + dvec3(low)) - dvec3(frame_.eye));
-        scene.radius = glm::length(half);
-        for (int k = 0; k < 3; ++k)
-            scene.half[k] = glm::dot(glm::abs(glm::transpose(current)[k]), half);
-    }
-    for (size_t l = 0; l < absent_.size(); ++l)
-        absent_[l] = reaches_[l].bounded() && !reaches(reaches_[l], scene);
 }
 
 std::vector<size_t> LightRecords::light_of_records() const {
@@ -143,6 +122,13 @@ std::vector<size_t> LightRecords::light_of_records() const {
             lights.insert(lights.end(), samples_of(l, statement), l);
     }
     return lights;
+}
+
+size_t LightRecords::most_points() const {
+    constexpr size_t kCacheBytes = 1 << 20, kRecordBytes = 7 * sizeof(float);  // L, Cl and lit
+    constexpr size_t kLeast = 64;
+    const size_t points = kCacheBytes / (kRecordBytes * std::max<size_t>(record_count_, 1));
+    return std::clamp(points / kLeast * kLeast, kLeast, kGridPoints);
 }
 
 void LightRecords::want_columns(Grid& grid) const {
@@ -222,9 +208,10 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
     const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
     for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
         const bool seen = bindings_.binding(grid.look->index, l).seen;
-        if (leaves_out && (absent_[l] || !seen)) continue;
         const uint32_t only = frame_.insight.only_light;
-        if ((only != kNone && l != only) || !seen || !reaches(reaches_[l], lit))
+        const bool dark = (only != kNone && l != only) || !seen || !reaches(reaches_[l], lit);
+        if (dark && leaves_out) continue;
+        if (dark)
             dark_records(making, l);
         else
             area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);

@@ -19,7 +19,7 @@ class LightShadows {
 class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
-    // `all`: records of lights that reach no surface are made too, as light_of_records has them.
+    // `all`: records of lights that reach no point are made too, as light_of_records has them.
     void begin_frame(bool all);
     // Whether some loop of the scene's shaders asks for that one of Scene::lights.
     bool asked(size_t light) const { return bindings_.asked(light); }
@@ -29,6 +29,8 @@ class LightRecords {
     // Which of Scene::lights each record of a set is of.
     std::vector<size_t> light_of_records() const;
 
+    // Of a grid: fewer where there are many lights, so that all their records stay in the cache.
+    size_t most_points() const;
     // What every grid with lights needs for them.
     void want_columns(Grid& grid) const;
     // The records of a grid's own points, as its set 0. Grid::shadows casts their shadows.
@@ -46,7 +48,6 @@ class LightRecords {
         size_t record_count = 0, sent_count = 0;
     };
     jit::RecordSet make_records(Grid& grid, LightPoints at);
-    void find_absent();
     static std::span<PointRays> accounts(const Making& making);
     // Run a light's kernel.
     void plain_records(Making& making, size_t light);
@@ -73,7 +74,6 @@ class LightRecords {
     LightBindings bindings_;
     AreaLights area_lights_;
     std::vector<LightReach> reaches_;  // of each light, in this frame
-    std::vector<uint8_t> absent_;      // of each light: it reaches no surface in this frame
     bool all_ = false;
     size_t record_count_ = 0;  // of one run
     bool need_rng_ = false;       // some light's kernel does

@@ -117,32 +117,11 @@ struct ShaderInstance {
     void update_for_vertices(const FrameContext& context, uint32_t object);
 };
 
-struct ShaderInstanceOptions {
-    jit::math::Tier math = jit::math::Tier::Precise;
-    const jit::Target* target = nullptr;
-    std::vector<std::string> light_messages;  // lights: names that some surface reads
-    std::vector<std::string> aovs;            // surfaces: output parameters that the film keeps
-    std::vector<std::string> gathered;  // surfaces: outputs that some gather reads of what it hits
-    const std::vector<std::string>* spaces = nullptr;
-    std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
-    bool own_lines = false;       // jit::CompileOptions
-    float opacity_threshold = 0;  // rsl::LowerOptions
-    bool derivatives = true;      // false: Du, Dv and the widths of filters are 0
-};
-
-// The shaders as compile_instance() lowers them, their parameters bound.
-std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
-                                     const SceneDescription& description);
 // Where a parameter's frame-rate number comes from; `space` of a Spatial one is not set.
 FrameInput parameter_input(const ShaderInstance& look, const rsl::KernelKey& key);
 
 // A point-like parameter, given in shader space, in current space.
 dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader,
                            const double* value);
-
-// Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
-// compiled (findings say why).
-bool compile_instance(ShaderInstance& look, const SceneDescription& description,
-                      const ShaderInstanceOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kinora

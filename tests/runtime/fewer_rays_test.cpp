@@ -123,5 +123,29 @@ TEST(FewerLightKernels, RunOnlyWhereAConeReaches) {
     EXPECT_LT(b.stats.light_points, a.stats.light_points / 2);
 }
 
+// Nine hundred circles that touch none of their neighbours: a point is lit by one light at most.
+// Where there are many lights, few points are lit at once, and only lights that reach them run.
+TEST(FewerLightKernels, OfNineHundredConesRunForFew) {
+    SceneText scene = floor_scene(kMatte);
+    constexpr int kSide = 30;
+    constexpr int kPixels = 251;  // no multiple: a light's square is no whole number of them
+    for (int k = 0; k < kSide * kSide; ++k)
+        scene.light(
+            fmt::format("spot{}", k),
+            "<spot><color>1 1 1</color><falloff_angle>31</falloff_angle></spot>",
+            fmt::format("<translate>{} {} 0.1</translate>", 2.0 / kSide * (k % kSide + 0.5) - 1,
+                        2.0 / kSide * (double(k / kSide) + 0.5) - 1));
+    Rendering r(scene.text());
+    r.frame(kPixels, kPixels);
+    EXPECT_LT(r.stats.light_points, uint64_t(kPixels) * kPixels * kSide * kSide / 50);
+    // tan 15.5 degrees at a height of 0.1 is the radius of a circle, in squares of 2 / 30.
+    const double radius = 0.1 * std::tan(radians(15.5));
+    const double share = kPi * radius * radius / (2.0 / kSide) / (2.0 / kSide);
+    int lit = 0;
+    for (int y = 0; y < kPixels; ++y)
+        for (int x = 0; x < kPixels; ++x) lit += r.color(x, y)[0] > 0.5f;
+    EXPECT_NEAR(lit / (double(kPixels) * kPixels), share, 0.02);
+}
+
 }  // namespace
 }  // namespace kinora

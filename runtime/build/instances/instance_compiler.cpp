@@ -15,7 +15,10 @@ bool InstanceCompiler::compile(ShaderInstance& instance, ShaderInstanceOptions w
     wanted.derivatives = scene_.options.derivatives;
     wanted.target = scene_.options.target;
     wanted.spaces = &space_names_;
-    if (scene_.options.want_dumps) wanted.dumps = &scene_.options.dumps;
+    if (scene_.options.want_dumps)
+        wanted.dumps = &scene_.options.dumps;  // of each instance
+    else
+        wanted.known = &known_;
     return compile_instance(instance, *scene_.description, wanted, diagnostics_);
 }
 

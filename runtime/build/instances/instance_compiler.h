@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "runtime/build/instances/compile_instance.h"
+#include "runtime/build/instances/compiled_layers.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -16,14 +17,15 @@ class InstanceCompiler {
     // The scene has all its nodes.
     InstanceCompiler(Scene& scene, Diagnostics& diagnostics);
 
-    // `wanted` has what holds for this instance alone: light_messages, aovs, gathered. False when a
-    // shader cannot be compiled; it has been reported.
+    // `wanted` has what holds for instances of its kind: light_messages, aovs, gathered. False when
+    // a shader cannot be compiled; it has been reported.
     bool compile(ShaderInstance& instance, ShaderInstanceOptions wanted = {});
 
   private:
     Scene& scene_;
     Diagnostics& diagnostics_;
     std::vector<std::string> space_names_;
+    KnownLayers known_;
 };
 
 }  // namespace kinora

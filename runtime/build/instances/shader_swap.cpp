@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/build/instances/compile_instance.h"
 #include "runtime/build/instances/output_planes.h"
 #include "runtime/description/displacements.h"
 #include "runtime/shading/shading.h"
@@ -265,8 +266,8 @@ ShaderSwapper::Outcome ShaderSwapper::swap(const SceneDescription& edited, Diagn
             return same_use(before, p, after, q);
         };
         if (std::ranges::equal(was.surfaces, is.surfaces, same)) continue;
-        bool plain = !displaces(was) && !displaces(is) && is.transformations.empty() &&
-                     is.lights.empty();
+        bool plain =
+            !displaces(was) && !displaces(is) && is.transformations.empty() && is.lights.empty();
         if (!plain || was.surfaces.size() != is.surfaces.size()) return Outcome::Build;
         for (size_t k = 0; k < instances_.size(); ++k) {
             if (instances_[k].material != m) continue;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/build/instances/compile_instance.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/shader_instance.h"
 

@@ -11,6 +11,7 @@
 
 #include "jit/ir/kernel_call.h"
 #include "rsl/model/kernel_keys.h"
+#include "runtime/build/instances/compile_instance.h"
 #include "runtime/play/pixel/point_inputs.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/grid.h"

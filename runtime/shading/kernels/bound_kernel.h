@@ -63,7 +63,7 @@ class BoundKernel {
     std::vector<uint8_t> frame_faults;                     // a byte a site of the frame kernel
 
   private:
-    Arena arena_;  // rows of kMaxLanes floats for the frame kernel
+    Arena arena_{4096};  // rows of kMaxLanes floats for the frame kernel
     std::vector<float*> in_, out_;
     bool frame_ran_ = false;  // to its end, with the numbers of in_
 };

@@ -15,11 +15,10 @@ dvec3 random_direction(std::mt19937& random) {
     return glm::normalize(dvec3(normal(random), normal(random), normal(random)));
 }
 
-bool lights(const LightReach& light, dvec3 p) {
+bool lights(const LightReach& light, double half_angle, dvec3 p) {
     const dvec3 way = p - light.apex;
     const double distance = glm::length(way);
-    return distance <= light.range &&
-           std::acos(glm::dot(way, light.axis) / distance) <= light.half_angle;
+    return distance <= light.range && std::acos(glm::dot(way, light.axis) / distance) <= half_angle;
 }
 
 // Never false where some point of the sphere is lit, and false for most that are not.
@@ -31,13 +30,15 @@ TEST(LightReach, IsNeverTooShortAndSeldomTooLong) {
         LightReach light;
         light.apex = 5.0 * random_direction(random);
         light.axis = random_direction(random);
-        if (round % 3 != 0) light.half_angle = kPi * uniform(random);
+        const double half_angle = round % 3 != 0 ? kPi * uniform(random) : kPi;
+        light.set_cone(half_angle);
         if (round % 3 != 1) light.range = 8 * uniform(random);
         const Sphere sphere{6.0 * uniform(random) * random_direction(random), uniform(random)};
         bool lit = false;
         for (int k = 0; k < 1000 && !lit; ++k)
-            lit = lights(light, sphere.center + sphere.radius * std::cbrt(uniform(random)) *
-                                                    random_direction(random));
+            lit = lights(light, half_angle,
+                         sphere.center +
+                             sphere.radius * std::cbrt(uniform(random)) * random_direction(random));
         EXPECT_TRUE(!lit || reaches(light, sphere)) << round;
         unlit += !lit;
         told += !reaches(light, sphere);
@@ -51,14 +52,15 @@ TEST(LightReach, ALampThatLooksAwayFromABoxDoesNotReachIt) {
     const float x[] = {-9, 9, 9}, y[] = {-9, -9, 9}, z[] = {0, 0, 0.5f};
     const float* P[] = {x, y, z};
     const Sphere floor = sphere_about(P, 3);
-    LightReach light{.apex = dvec3(0, 0, 1), .half_angle = 1.5};
+    LightReach light{.apex = dvec3(0, 0, 1)};
+    light.set_cone(1.5);
     EXPECT_FALSE(reaches(light, floor));
     EXPECT_TRUE(reaches(light, {floor.center, floor.radius}));
     light.apex.z = 0.45;
     EXPECT_TRUE(reaches(light, floor));
-    light.apex.z = 1, light.half_angle = 1.6;  // it sends light below itself too
+    light.apex.z = 1, light.set_cone(1.6);  // it sends light below itself too
     EXPECT_TRUE(reaches(light, floor));
-    light.half_angle = 1.5, light.axis = {0, 0, -1};
+    light.set_cone(1.5), light.axis = {0, 0, -1};
     EXPECT_TRUE(reaches(light, floor));
     light.black = true;
     EXPECT_FALSE(reaches(light, floor));
@@ -68,7 +70,7 @@ TEST(LightReach, IsBoundedByAConeOrARange) {
     LightReach light;
     EXPECT_FALSE(light.bounded());
     EXPECT_TRUE(reaches(light, {dvec3(1e30), 0}));
-    light.half_angle = 3;
+    light.set_cone(3);
     EXPECT_TRUE(light.bounded());
 }
 

@@ -1,0 +1,43 @@
+// runtime/build/instances/compile_instance.h: a shader instance's kernels.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "jit/compiler.h"
+#include "jit/math/math.h"
+#include "rsl/model/layer.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/description/scene_description.h"
+#include "runtime/shading/shader_instance.h"
+
+namespace kinora {
+
+class KnownLayers;  // runtime/build/instances/compiled_layers.h
+
+struct ShaderInstanceOptions {
+    jit::math::Tier math = jit::math::Tier::Precise;
+    const jit::Target* target = nullptr;
+    std::vector<std::string> light_messages;  // lights: names that some surface reads
+    std::vector<std::string> aovs;            // surfaces: output parameters that the film keeps
+    std::vector<std::string> gathered;  // surfaces: outputs that some gather reads of what it hits
+    const std::vector<std::string>* spaces = nullptr;
+    std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
+    // Looked up and added to. All instances of a kind that share it have the same options.
+    KnownLayers* known = nullptr;
+    bool own_lines = false;       // jit::CompileOptions
+    float opacity_threshold = 0;  // rsl::LowerOptions
+    bool derivatives = true;      // false: Du, Dv and the widths of filters are 0
+};
+
+// The shaders as compile_instance() lowers them, their parameters bound.
+std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
+                                     const SceneDescription& description);
+
+// Lowers and compiles; `look` has kind, layers, node and varying set. False when a shader cannot be
+// compiled (findings say why).
+bool compile_instance(ShaderInstance& look, const SceneDescription& description,
+                      const ShaderInstanceOptions& options, Diagnostics& diagnostics);
+
+}  // namespace kinora
