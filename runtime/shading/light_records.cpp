@@ -93,6 +93,7 @@ uint32_t bits(float x) {
 LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     : frame_(frame), kernels_(kernels), bindings_(frame.scene), area_lights_(frame, bindings_) {
     for (size_t l = 0; l < frame.scene.lights.size(); ++l) {
+        every_.push_back(l);
         for (const LightOutputs& statement : bindings_.statements(l)) {
             record_count_ += samples_of(l, statement);
             draws_samples_ |= statement.spread >= 0;
@@ -113,6 +114,22 @@ void LightRecords::begin_frame(bool all) {
     reaches_.resize(frame_.scene.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l)
         if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, l);
+    find_present();
+}
+
+void LightRecords::find_present() {
+    vec3 low, high;
+    frame_.scene.accel.bounds(low, high);
+    const dmat3 current(frame_.camera_from_accel);
+    const dvec3 half = 0.5 * (dvec3(high) - dvec3(low));
+    Sphere scene;
+    scene.center = current * (0.5 * (dvec3(high) + dvec3(low)) - dvec3(frame_.eye));
+    scene.radius = glm::length(half);
+    for (int k = 0; k < 3; ++k)
+        scene.half[k] = glm::dot(glm::abs(glm::transpose(current)[k]), half);
+    present_.clear();
+    for (size_t l = 0; l < reaches_.size(); ++l)
+        if (!reaches_[l].bounded() || reaches(reaches_[l], scene)) present_.push_back(l);
 }
 
 std::vector<size_t> LightRecords::light_of_records() const {
@@ -206,7 +223,7 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
     const Sphere lit = sphere_about(at.P, at.count);
     // At other points, and within volumes, handles and light_of_records count all lights.
     const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
-    for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
+    for (size_t l : leaves_out ? present_ : every_) {
         const bool seen = bindings_.binding(grid.look->index, l).seen;
         const uint32_t only = frame_.insight.only_light;
         const bool dark = (only != kNone && l != only) || !seen || !reaches(reaches_[l], lit);

@@ -48,6 +48,7 @@ class LightRecords {
         size_t record_count = 0, sent_count = 0;
     };
     jit::RecordSet make_records(Grid& grid, LightPoints at);
+    void find_present();
     static std::span<PointRays> accounts(const Making& making);
     // Run a light's kernel.
     void plain_records(Making& making, size_t light);
@@ -74,8 +75,10 @@ class LightRecords {
     LightBindings bindings_;
     AreaLights area_lights_;
     std::vector<LightReach> reaches_;  // of each light, in this frame
+    std::vector<size_t> every_;        // light
+    std::vector<size_t> present_;      // those whose light may reach some surface in this frame
     bool all_ = false;
-    size_t record_count_ = 0;  // of one run
+    size_t record_count_ = 0;     // of one run
     bool need_rng_ = false;       // some light's kernel does
     bool draws_samples_ = false;  // for some light
 };
