@@ -117,6 +117,7 @@ void LightRecords::begin_frame(bool all) {
     find_present();
 }
 
+// By the box of the whole scene, so that the grids need not ask of each light again.
 void LightRecords::find_present() {
     vec3 low, high;
     frame_.scene.accel.bounds(low, high);
