@@ -28,6 +28,10 @@ bool is_noisy(const Planes& planes, size_t at) {
     return filter_kernels().exceeds(&planes.variance[at], 0);
 }
 
+void forget_stretch(Moments& moments, size_t at) {
+    std::fill_n(&moments.count[at], kFilterRun, 0.0f);
+}
+
 SeenRows rows_of(const std::vector<float> (&c)[4], const Moments& moments, size_t at) {
     return {{&c[0][at], &c[1][at], &c[2][at], &c[3][at]},
             &moments.first[at],
@@ -93,9 +97,8 @@ void History::look_back(const Scene& scene, const FirstHits& hits, size_t at,
 // Pixels without a variance have seen nothing, and say nothing.
 void History::mix(Planes& planes) {
     const HistoryKernels& kernels = history_kernels();
-    std::ranges::fill(moments_.count, 0.0f);
     each_stretch(planes, [&](size_t at) {
-        if (!is_noisy(planes, at)) return;
+        if (!is_noisy(planes, at)) return forget_stretch(moments_, at);
         kernels.blend({&planes.surface[at],
                        &planes.variance[at],
                        {&fresh_[0][at], &fresh_[1][at], &fresh_[2][at], &fresh_[3][at]},
@@ -118,12 +121,14 @@ void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
     for (Moments* moments : {&moments_, &seen_moments_}) moments->resize(size);
     for (auto& plane : seen_) plane.resize(size);
     const bool known = known_ && accel_from_local_.size() == scene.geometry.size();
-    for (int k = 0; k < 4; ++k) fresh_[k] = planes.c[k];
-    std::ranges::fill(seen_moments_.count, 0.0f);
-    if (known)
-        each_stretch(planes, [&](size_t at) {
-            if (is_noisy(planes, at)) look_back(scene, hits, at, planes);
-        });
+    for (int k = 0; k < 4; ++k) {
+        fresh_[k].resize(size);
+        fresh_[k].swap(planes.c[k]);  // stretches without noise are not asked for again
+    }
+    each_stretch(planes, [&](size_t at) {
+        known && is_noisy(planes, at) ? look_back(scene, hits, at, planes)
+                                      : forget_stretch(seen_moments_, at);
+    });
     mix(planes);
 }
 

@@ -109,9 +109,10 @@ void pass(const FilterGuide& guide, const FilterColors& colors, int step, ptrdif
 }
 
 bool exceeds(const float* numbers, float limit) {
-    float most = 0;
-    for (size_t i = 0; i < kRun; ++i) most = numbers[i] > most ? numbers[i] : most;
-    return most > limit;
+    // Unlike their largest, which each would have to wait for.
+    int32_t any = 0;
+    for (size_t i = 0; i < kRun; ++i) any |= numbers[i] > limit ? 1 : 0;
+    return any != 0;
 }
 
 void smooth_variance(const uint32_t* surface, const float* variance, ptrdiff_t stride, float* to) {
