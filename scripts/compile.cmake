@@ -18,9 +18,11 @@ endif()
 
 find_program(KINORA_CCACHE ccache)
 if(KINORA_CCACHE)
-    # Without these ccache takes no file that uses precompiled headers.
+    # Without these ccache takes no file that uses precompiled headers; nor what another folder has compiled, which
+    # another clone of the project is.
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
-        CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime ${KINORA_CCACHE})
+        CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+        CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${KINORA_CCACHE})
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND KINORA_PCH)
         add_compile_options(-fpch-preprocess)
     endif()
