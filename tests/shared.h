@@ -5,9 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/folders.h"
+
 inline std::filesystem::path shared_folder() {
     const char* named = std::getenv("KINORA_SHARED");
-    return named ? named : KINORA_SOURCE_DIR "/../shared";
+    return named ? named : kinora::project_folder() + "/../shared";
 }
 inline std::filesystem::path shared_scenes() {
     return shared_folder() / "scenes";

@@ -7,6 +7,7 @@
 
 #include "jit/target.h"
 #include "tests/bench/shade_kernels.h"
+#include "tests/folders.h"
 
 namespace kinora {
 namespace {
@@ -41,7 +42,7 @@ void source_to_code(benchmark::State& state, const std::string& name, const jit:
 void assets_to_code(benchmark::State& state, const jit::Target& target) {
     std::vector<std::string> texts;
     namespace fs = std::filesystem;
-    for (auto& entry : fs::recursive_directory_iterator(KINORA_SOURCE_DIR "/assets/shaders")) {
+    for (auto& entry : fs::recursive_directory_iterator(project_folder() + "/assets/shaders")) {
         if (entry.path().extension() != ".sl") continue;
         std::stringstream text;
         text << std::ifstream(entry.path()).rdbuf();

@@ -16,6 +16,7 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/base/arena.h"
 #include "runtime/base/check.h"
+#include "tests/folders.h"
 
 namespace kinora {
 
@@ -32,7 +33,7 @@ inline double cpu_seconds() {
 inline std::string shader_text(const std::string& name) {
     std::stringstream text;
     for (const char* folder : {"/assets/shaders/", "/tests/bench/"}) {
-        std::ifstream file(std::string(KINORA_SOURCE_DIR) + folder + name + ".sl");
+        std::ifstream file(project_folder() + folder + name + ".sl");
         if (file) text << file.rdbuf();
     }
     CHECK(!text.str().empty());

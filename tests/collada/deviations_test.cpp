@@ -8,13 +8,14 @@
 
 #include "collada/validate/validate.h"
 #include "reading.h"
+#include "tests/folders.h"
 
 namespace kinora::collada {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(KINORA_TEST_DATA) / "deviations";
+const fs::path kFolder = fs::path(test_data_folder()) / "deviations";
 
 struct Deviation {
     const char* file;

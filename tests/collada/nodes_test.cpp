@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "tests/collada/reading.h"
+#include "tests/folders.h"
 
 namespace kinora::collada {
 namespace {
@@ -236,7 +237,7 @@ TEST(Nodes, AnExtraHidesThemUnlessAChannelNamesItOrNothingWouldBeLeft) {
 // Blender's decomposed transforms: what the picture needs is location * rotation * scale, and what
 // channels name moves along.
 TEST(Nodes, BlendersOrderOfTransformsIsMended) {
-    const std::string rules = KINORA_TEST_DATA "/rules/";
+    const std::string rules = test_data_folder() + "/rules/";
     Reading r;
     read_file(r, rules + "NODE_ORDER.dae");
     ASSERT_TRUE(r.scene);

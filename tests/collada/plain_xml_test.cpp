@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "collada/document/document_reader_p.h"
+#include "tests/folders.h"
 #include "tests/mutate.h"
 #include "tests/shared.h"
 
@@ -215,7 +216,7 @@ TEST(PlainXml, AnyBytesAmidAText) {
 
 TEST(PlainXml, ReadsNearlyAllFilesOfTheProject) {
     size_t plain = 0, all = 0;
-    for (const std::string& text : files_below(KINORA_SOURCE_DIR "/assets")) {
+    for (const std::string& text : files_below(project_folder() + "/assets")) {
         ++all;
         plain += compare(text) == Outcome::Same;
     }
@@ -232,7 +233,8 @@ TEST(PlainXml, ReadsNearlyAllFilesOfTheProject) {
 
 TEST(PlainXml, DamagedFilesAreRefusedOrReadAsExpatDoes) {
     std::vector<std::string> corpus;
-    for (const char* folder : {KINORA_TEST_DATA "/rules", KINORA_TEST_DATA "/deviations"})
+    for (const std::string& folder :
+         {test_data_folder() + "/rules", test_data_folder() + "/deviations"})
         for (const std::string& text : files_below(folder))
             if (text.size() < 8000) corpus.push_back(text);
     ASSERT_GT(corpus.size(), 400u);

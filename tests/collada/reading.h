@@ -8,6 +8,7 @@
 
 #include "collada/extract/extract.h"
 #include "collada/scene/scene.h"
+#include "tests/folders.h"
 
 namespace kinora::collada {
 
@@ -56,7 +57,7 @@ inline void read_text(Reading& r, std::string text, const std::string& path = "t
 }
 
 inline std::string test_file(const std::string& name) {
-    return std::string(KINORA_SOURCE_DIR) + "/tests/collada/files/" + name;
+    return project_folder() + "/tests/collada/files/" + name;
 }
 
 inline void read_file(Reading& r, const std::string& path, const ExtractOptions& options = {}) {

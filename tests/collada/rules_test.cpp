@@ -14,6 +14,7 @@
 #include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
 #include "tests/collada/scene_promises.h"
+#include "tests/folders.h"
 #include "tests/mutate.h"
 
 namespace kinora::collada {
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(KINORA_TEST_DATA) / "rules";
+const fs::path kFolder = fs::path(test_data_folder()) / "rules";
 
 struct RuleFile {
     std::string name, code;

@@ -7,6 +7,7 @@
 
 #include "collada/validate/validate.h"
 #include "tests/collada/reading.h"
+#include "tests/folders.h"
 #include "tests/shared.h"
 
 namespace kinora::collada {
@@ -74,7 +75,7 @@ void expect_all_seen(const fs::path& path, size_t& count) {
 TEST(SecondOpinion, DaeValidatorSeesNoLinkOrIdThatWeDoNot) {
     if (!fs::exists(kValidator)) GTEST_SKIP() << "opencollada-tools are not installed";
     size_t count = 0;
-    for (const fs::path& folder : {fs::path(KINORA_TEST_DATA) / "rules", shared_scenes()}) {
+    for (const fs::path& folder : {fs::path(test_data_folder()) / "rules", shared_scenes()}) {
         if (!fs::exists(folder)) continue;
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
             std::string extension = entry.path().extension().string();

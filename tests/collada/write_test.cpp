@@ -12,6 +12,7 @@
 
 #include "collada/document/edit.h"
 #include "tests/collada/reading.h"
+#include "tests/folders.h"
 #include "tests/shared.h"
 
 namespace kinora::collada {
@@ -195,7 +196,7 @@ std::vector<std::string> documents_below(const fs::path& folder) {
 std::vector<std::string> own_documents() {
     std::vector<std::string> paths;
     for (const char* folder : {"/assets", "/tests/collada/files", "/tests/runtime"})
-        for (std::string& path : documents_below(KINORA_SOURCE_DIR + std::string(folder)))
+        for (std::string& path : documents_below(project_folder() + std::string(folder)))
             paths.push_back(std::move(path));
     return paths;
 }

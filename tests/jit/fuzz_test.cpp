@@ -7,6 +7,7 @@
 
 #include "jit/compiler.h"
 #include "jit/passes/passes.h"
+#include "tests/folders.h"
 #include "tests/fuzz_settings.h"
 #include "tests/jit/module_difference.h"
 #include "tests/jit/random_module.h"
@@ -16,7 +17,7 @@ namespace kinora::jit::test {
 namespace {
 
 constexpr uint64_t kDefaultPrograms = 2000;
-const std::string kKept = KINORA_SOURCE_DIR "/tests/jit/kept";
+const std::string kKept = project_folder() + "/tests/jit/kept";
 
 struct Program {
     Module module;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "jit/target.h"
+#include "tests/folders.h"
 #include "tests/rsl/edge_world.h"
 #include "tests/rsl/shading_world.h"
 
@@ -29,7 +30,7 @@ const char* keyword(const std::string& letters) {
 
 std::vector<Form> forms() {
     std::vector<Form> result;
-    std::ifstream file(KINORA_SOURCE_DIR "/tests/rsl/files/forms/builtins.txt");
+    std::ifstream file(project_folder() + "/tests/rsl/files/forms/builtins.txt");
     std::string line;
     for (int number = 1; std::getline(file, line); ++number) {
         if (line.empty() || line[0] == '#') continue;

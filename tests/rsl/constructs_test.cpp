@@ -13,6 +13,7 @@
 
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "tests/folders.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = fs::path(KINORA_SOURCE_DIR) / "tests/rsl/constructs";
+const fs::path kFolder = fs::path(project_folder()) / "tests/rsl/constructs";
 
 // Constructs of real shaders, and the file that has each.
 constexpr struct {

@@ -3,6 +3,7 @@
 // more run from a fresh seed, which is printed.
 #include <gtest/gtest.h>
 
+#include "tests/folders.h"
 #include "tests/fuzz_settings.h"
 #include "tests/rsl/random_shader.h"
 #include "tests/rsl/reduce_text.h"
@@ -12,7 +13,7 @@ namespace kinora::rsl {
 namespace {
 
 constexpr uint64_t kDefaultShaders = 150;
-const std::string kKept = KINORA_SOURCE_DIR "/tests/rsl/kept";
+const std::string kKept = project_folder() + "/tests/rsl/kept";
 
 std::string source_of(uint64_t seed) {
     return random_shader(seed, seed % 8 == 7);
@@ -101,7 +102,7 @@ TEST(ShaderFuzz, KeptShadersAgree) {
 
 TEST(CompileTwice, GivesTheSameBytesForEveryShaderOfAssets) {
     int shaders = 0;
-    std::filesystem::path folder = std::filesystem::path(KINORA_SOURCE_DIR) / "assets/shaders";
+    std::filesystem::path folder = std::filesystem::path(project_folder()) / "assets/shaders";
     for (auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".sl") continue;
         Diagnostics diagnostics;

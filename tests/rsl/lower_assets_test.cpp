@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "jit/target.h"
+#include "tests/folders.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {
@@ -19,7 +20,7 @@ std::string read_asset(const std::filesystem::path& path) {
     return text.str();
 }
 std::string asset(const std::string& name) {
-    return read_asset(KINORA_SOURCE_DIR "/assets/shaders/" + name + ".sl");
+    return read_asset(project_folder() + "/assets/shaders/" + name + ".sl");
 }
 
 void texture_service(const jit::ServiceCall& call) {
@@ -58,7 +59,7 @@ void set_up(RunShader& shader) {
 
 TEST(Assets, AllShadersLowerAndRunFinite) {
     int count = 0;
-    for (auto& entry : std::filesystem::directory_iterator(KINORA_SOURCE_DIR "/assets/shaders")) {
+    for (auto& entry : std::filesystem::directory_iterator(project_folder() + "/assets/shaders")) {
         if (entry.path().extension() != ".sl") continue;
         // Volumes and imagers change what is there already, which this run does not give them.
         std::string text = read_asset(entry.path());

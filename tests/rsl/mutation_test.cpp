@@ -30,7 +30,7 @@ void on_death(int signal) {
 
 std::vector<std::string> corpus() {
     std::vector<std::string> texts;
-    std::filesystem::path root = KINORA_SOURCE_DIR;
+    std::filesystem::path root = project_folder();
     for (const char* folder :
          {"tests/rsl/files/good", "tests/rsl/files/lights", "tests/rsl/files/syntax",
           "tests/rsl/files/types", "tests/rsl/kept", "assets/shaders"})
@@ -48,6 +48,7 @@ std::vector<std::string> words() {
     std::vector<std::string> list = {
 #define WORD(name, text) text,
 #include "rsl/text/words.def"
+#include "tests/folders.h"
 #undef WORD
         "{",
         "}",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rsl/compile.h"
+#include "tests/folders.h"
 
 namespace kinora::rsl {
 
@@ -21,7 +22,7 @@ inline CompileOptions front_end_only() {
 inline std::vector<std::filesystem::path> shader_files(const std::string& folder) {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(
-             std::filesystem::path(KINORA_SOURCE_DIR) / folder))
+             std::filesystem::path(project_folder()) / folder))
         if (entry.path().extension() == ".sl") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;

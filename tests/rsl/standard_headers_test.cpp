@@ -10,6 +10,7 @@
 
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "tests/folders.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
@@ -203,7 +204,7 @@ TEST(StandardHeaders, EveryFunctionCompilesWithoutAWarning) {
 
 TEST(StandardHeaders, AllOfThemAreTested) {
     std::filesystem::path folder =
-        std::filesystem::path(KINORA_SOURCE_DIR) / "assets/shaders/include";
+        std::filesystem::path(project_folder()) / "assets/shaders/include";
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.is_directory()) continue;
         std::string name = entry.path().lexically_relative(folder).generic_string();

@@ -8,6 +8,7 @@
 #include "jit/target.h"
 #include "runtime/base/parallel.h"
 #include "scene_text.h"
+#include "tests/folders.h"
 
 namespace kinora {
 namespace {
@@ -41,7 +42,7 @@ SceneText moving_scene() {
 }
 
 std::string walker() {
-    return std::string(KINORA_SOURCE_DIR) + "/assets/scenes/walker.dae";
+    return project_folder() + "/assets/scenes/walker.dae";
 }
 
 // A rebuild makes new structures; a frame that refits makes none.

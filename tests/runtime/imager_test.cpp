@@ -8,6 +8,7 @@
 #include "runtime/load/override_scene.h"
 #include "runtime/load/override_shader.h"
 #include "scene_text.h"
+#include "tests/folders.h"
 
 namespace kinora {
 namespace {
@@ -31,7 +32,7 @@ void expect_pixel(const Rendering& r, int x, int y, vec4 want, double tolerance 
 TEST(Imager, BackgroundIsPutBehindByAlpha) {
     SceneText scene = sheet_scene();
     scene.scene_effect(
-        "back", fmt::format("#include \"{}/assets/shaders/background.sl\"", KINORA_SOURCE_DIR),
+        "back", fmt::format("#include \"{}/assets/shaders/background.sl\"", project_folder()),
         "<shader stage=\"IMAGER\"><bind symbol=\"background\">"
         "<color>0.2 0.4 0.8</color></bind></shader>");
     Rendering r(scene.text());
@@ -212,8 +213,7 @@ TEST(OverrideImager, TakesAStandardNameAFileOrNone) {
     };
     EXPECT_EQ(imagers("none", true), "-");
     EXPECT_EQ(imagers("background", true), "background");
-    EXPECT_EQ(imagers(std::string(KINORA_SOURCE_DIR) + "/assets/shaders/background.sl", true),
-              "background");
+    EXPECT_EQ(imagers(project_folder() + "/assets/shaders/background.sl", true), "background");
     EXPECT_EQ(imagers("plastic", false), "i");
     EXPECT_EQ(imagers("nosuch", false), "i");
 }

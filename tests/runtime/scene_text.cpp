@@ -11,6 +11,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/build/build_scene.h"
+#include "tests/folders.h"
 
 namespace kinora {
 
@@ -264,7 +265,7 @@ std::unique_ptr<Rendering> Rendering::of_file(const std::string& path,
 void Rendering::load(const std::string& path, const SceneOptions& options) {
     settings.width = settings.height = 16;
     ImportOptions import_options;
-    import_options.allow_external = {KINORA_SOURCE_DIR "/assets/shaders"};  // tests include them
+    import_options.allow_external = {project_folder() + "/assets/shaders"};  // tests include them
     auto description = import_scene(path, import_options, diagnostics);
     if (!description) return;
     scene = build_scene(std::make_shared<SceneDescription>(std::move(*description)), options,

@@ -8,6 +8,7 @@
 #include "runtime/scene/medium.h"
 #include "runtime/shading/shading.h"
 #include "scene_text.h"
+#include "tests/folders.h"
 
 namespace kinora {
 namespace {
@@ -147,7 +148,7 @@ TEST(Atmosphere, TheStandardFogAndDepthcueAreTheirFormulas) {
     for (const char* name : {"fog", "depthcue"}) {
         SceneText scene;
         std::string include =
-            fmt::format("#include \"{}/assets/shaders/{}.sl\"", KINORA_SOURCE_DIR, name);
+            fmt::format("#include \"{}/assets/shaders/{}.sl\"", project_folder(), name);
         scene.scene_effect("air", include, kVolume);
         scene.square("floor", 1.5).look("floor-look", plain({1, 0.5, 0}));
         scene.place("floor", "floor-look");
@@ -161,7 +162,7 @@ TEST(Atmosphere, TheStandardFogAndDepthcueAreTheirFormulas) {
 
 TEST(Smoke, MarchedThroughEvenDensityIsTheClosedForm) {
     SceneText scene;
-    std::string include = fmt::format("#include \"{}/assets/shaders/smoke.sl\"", KINORA_SOURCE_DIR);
+    std::string include = fmt::format("#include \"{}/assets/shaders/smoke.sl\"", project_folder());
     scene.scene_effect("smoke", include,
                        "<shader stage=\"VOLUME\"><bind symbol=\"density\"><float>0.1</float></bind>"
                        "<bind symbol=\"stepsize\"><float>0.25</float></bind>"
@@ -370,7 +371,7 @@ TEST(Exterior, StandsBesideAnInterior) {
 
 TEST(Volumes, GiveTheSameBytesForAnyThreadsAndTargets) {
     SceneText scene = fog_scene();
-    std::string include = fmt::format("#include \"{}/assets/shaders/smoke.sl\"", KINORA_SOURCE_DIR);
+    std::string include = fmt::format("#include \"{}/assets/shaders/smoke.sl\"", project_folder());
     scene.octahedron("ball").look("matte", "surface m() { Oi = 1; Ci = diffuse(normalize(N)); }");
     scene.place("ball", "matte", "<scale>0.4 0.4 0.4</scale>");
     scene.cube("box", 0.8)

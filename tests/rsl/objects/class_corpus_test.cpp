@@ -8,6 +8,7 @@
 
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "tests/folders.h"
 #include "tests/rsl/source_text.h"
 
 namespace kinora::rsl {
@@ -17,7 +18,7 @@ namespace {
 int compile_classes(const std::string& folder) {
     int count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(
-             std::filesystem::path(KINORA_SOURCE_DIR) / folder)) {
+             std::filesystem::path(project_folder()) / folder)) {
         if (entry.path().extension() != ".sl") continue;
         ++count;
         Diagnostics diagnostics;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "jit/target.h"
+#include "tests/folders.h"
 #include "tests/rsl/differential.h"
 #include "tests/rsl/edge_world.h"
 
@@ -149,7 +150,7 @@ TEST(OpacityFirst, GivesZeroWhereTheColorIsInfiniteAndNothingShows) {
 TEST(OpacityFirst, ChangesNoBitOfTheAssetsWhereSomethingShows) {
     int surfaces = 0, moved = 0;
     for (auto& entry :
-         std::filesystem::recursive_directory_iterator(KINORA_SOURCE_DIR "/assets/shaders")) {
+         std::filesystem::recursive_directory_iterator(project_folder() + "/assets/shaders")) {
         if (entry.path().extension() != ".sl") continue;
         std::ifstream file(entry.path());
         std::ostringstream text;

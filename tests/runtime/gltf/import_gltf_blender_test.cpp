@@ -6,12 +6,13 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
+#include "tests/folders.h"
 #include "tests/runtime/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {
 
-const std::string kFolder = KINORA_SOURCE_DIR "/assets/gltf/";
+const std::string kFolder = project_folder() + "/assets/gltf/";
 
 // World positions of the shape on the node with that name, whatever kind it is.
 std::vector<dvec3> positions_of(const Scene& scene, std::string_view node) {

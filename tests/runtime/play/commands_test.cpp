@@ -10,6 +10,7 @@
 #include "runtime/images/image_io.h"
 #include "runtime/play/state.h"
 #include "runtime/trade/knobs.h"
+#include "tests/folders.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -30,7 +31,7 @@ class EveryCommand : public testing::TestWithParam<Command> {};
 
 TEST_P(EveryCommand, ChangesWhatItsRowSays) {
     const Command& row = GetParam();
-    ASSERT_EQ(chdir(KINORA_SOURCE_DIR), 0);
+    ASSERT_EQ(chdir(project_folder().c_str()), 0);
     bool clips = std::string_view(row.word) == "clip";  // of all scenes one has some
     Played played(clips ? "gltf/bender.glb" : "scenes/walker.dae");
     ASSERT_EQ(played.script(row.setup), "");

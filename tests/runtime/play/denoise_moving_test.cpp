@@ -11,6 +11,7 @@
 #include "runtime/frame/frame.h"
 #include "runtime/play/denoise/denoiser.h"
 #include "runtime/programs/open/open_scene.h"
+#include "tests/folders.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -26,7 +27,8 @@ float bright(const raytrace::Film& film, size_t pixel) {
 
 class Gliding {
   public:
-    Gliding() : request_(small_request(KINORA_SOURCE_DIR "/tests/runtime/play/moving_shadow.dae")) {
+    Gliding()
+        : request_(small_request(project_folder() + "/tests/runtime/play/moving_shadow.dae")) {
         request_.width = 160;
         request_.height = 90;
         set_thread_count(2);

@@ -9,9 +9,10 @@
 #include <string>
 
 #include "runtime/base/parallel.h"
-#include "runtime/trade/quality.h"
 #include "runtime/play/player.h"
 #include "runtime/play/script.h"
+#include "runtime/trade/quality.h"
+#include "tests/folders.h"
 
 namespace kinora {
 
@@ -27,7 +28,7 @@ inline void write(const std::string& file, const std::string& text) {
 constexpr double kLong = 300;  // seconds: more is a hang
 
 inline std::string scene_path(const std::string& name) {
-    return KINORA_SOURCE_DIR "/assets/" + name;
+    return project_folder() + "/assets/" + name;
 }
 
 inline SceneRequest small_request(const std::string& scene, int samples = 1) {
