@@ -10,6 +10,7 @@
 #include "rsl/builtins/table.h"
 #include "rsl/compile.h"
 #include "rsl/lower/lower.h"
+#include "tests/folders.h"
 #include "tests/fuzz_settings.h"
 #include "tests/mutate.h"
 
@@ -48,7 +49,6 @@ std::vector<std::string> words() {
     std::vector<std::string> list = {
 #define WORD(name, text) text,
 #include "rsl/text/words.def"
-#include "tests/folders.h"
 #undef WORD
         "{",
         "}",
