@@ -247,13 +247,14 @@ bool PlayerCore::cancel_open() {
     return true;
 }
 
-std::optional<uint64_t> PlayerCore::ordered() const {
+std::optional<Awaited> PlayerCore::ordered() const {
     if (!maker.idle()) return std::nullopt;
-    return loop.ordered();
+    return Awaited{loop.ordered(), loop.asked()};
 }
 
-bool PlayerCore::picture_ready(uint64_t ordered) const {
-    return loop.has_made(ordered) && (loop.picture() || loop.idle());
+bool PlayerCore::picture_ready(const Awaited& of) const {
+    return loop.has_made(of.pictures) && loop.has_answered(of.questions) &&
+           (loop.picture() || loop.idle());
 }
 
 // What a new scene begins with instead of its own beginning.

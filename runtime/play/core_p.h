@@ -72,8 +72,8 @@ struct PlayerCore {
     ViewOrder view_order() const;
     DisplaySettings display_settings() const;
     bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle() && board.idle(); }
-    std::optional<uint64_t> ordered() const;     // see Player
-    bool picture_ready(uint64_t ordered) const;  // or none can be made
+    std::optional<Awaited> ordered() const;       // see Player
+    bool picture_ready(const Awaited& of) const;  // or none can be made
     std::string observe(Observable what) const;
     std::string state_json() const;  // all observables and the edits, as texts
 

@@ -158,11 +158,11 @@ std::vector<std::shared_ptr<const Thumbnail>> Player::thumbnails() const {
 bool Player::idle() const {
     return core_->idle();
 }
-std::optional<uint64_t> Player::ordered() const {
+std::optional<Awaited> Player::ordered() const {
     return core_->ordered();
 }
-bool Player::picture_ready(uint64_t ordered) const {
-    return core_->picture_ready(ordered);
+bool Player::picture_ready(const Awaited& of) const {
+    return core_->picture_ready(of);
 }
 bool Player::real_time() const {
     return core_->setup.real_time;
@@ -193,7 +193,7 @@ bool Player::wait_idle(double seconds) {
 
 bool Player::wait_picture(double seconds) {
     core_->send_order();
-    std::optional<uint64_t> awaited;
+    std::optional<Awaited> awaited;
     const auto ready = [&] {
         if (!awaited) awaited = core_->ordered();
         return awaited && core_->picture_ready(*awaited);

@@ -49,6 +49,11 @@ struct Thumbnail;    // thumbnails.h
 struct MakerCounts;  // scene_maker.h
 struct Opening;      // scene_maker.h
 
+// What was done up to a moment: pictures that were ordered, clicks and other questions.
+struct Awaited {
+    uint64_t pictures = 0, questions = 0;
+};
+
 class Player {
   public:
     explicit Player(PlayerSetup setup = {});
@@ -83,9 +88,10 @@ class Player {
     // Nothing is left to do: the picture is refined, or cannot be made.
     bool idle() const;
     // Stands for all that was done up to now; none while scenes or shaders are still being made.
-    std::optional<uint64_t> ordered() const;
-    // Whether there is a picture of that or of something later, refined or not.
-    bool picture_ready(uint64_t ordered) const;
+    std::optional<Awaited> ordered() const;
+    // Whether there is a picture of that or of something later, refined or not, and what was
+    // clicked by then is known.
+    bool picture_ready(const Awaited& of) const;
     bool real_time() const;
     uint64_t frames_rendered() const;  // begun, so far
     MakerCounts made() const;

@@ -153,7 +153,9 @@ void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
 void RenderLoop::ask(Question question) {
     {
         std::lock_guard lock(mutex_);
+        question.ordered = count_.ordered;
         questions_.push_back(std::move(question));
+        ++count_.asked;
         if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;  // it begins again after it
     }
     wanted_.notify_one();
@@ -167,12 +169,23 @@ std::shared_ptr<const Picture> RenderLoop::picture() const {
 
 std::vector<Answer> RenderLoop::take_answers() {
     std::lock_guard lock(mutex_);
+    count_.taken = count_.answered;
     return std::exchange(answers_, {});
 }
 
 bool RenderLoop::answered() const {
     std::lock_guard lock(mutex_);
     return !scene_ || (questions_.empty() && answers_.empty() && !working_);
+}
+
+uint64_t RenderLoop::asked() const {
+    std::lock_guard lock(mutex_);
+    return count_.asked;
+}
+
+bool RenderLoop::has_answered(uint64_t asked) const {
+    std::lock_guard lock(mutex_);
+    return !scene_ || count_.taken >= asked;
 }
 
 std::vector<FindingText> RenderLoop::take_findings() {
@@ -294,6 +307,11 @@ void RenderLoop::end_late_frames() {
     }
 }
 
+// With the lock. While a scene plays, a quick picture is always still to come.
+bool RenderLoop::may_answer(const Question& question) const {
+    return !question.posed || next_ != Pass::Quick || count_.made >= question.ordered;
+}
+
 // With the lock. What is to be done now, if anything.
 std::optional<RenderLoop::Step> RenderLoop::next_step() {
     if (!scene_) return std::nullopt;
@@ -301,7 +319,7 @@ std::optional<RenderLoop::Step> RenderLoop::next_step() {
     step.order = order_;
     step.display = display_;
     step.scene = scene_;
-    if (!questions_.empty() && (next_ != Pass::Quick || !questions_.front().posed)) {
+    if (!questions_.empty() && may_answer(questions_.front())) {
         step.question = std::move(questions_.front());
         questions_.pop_front();
         return step;
@@ -576,6 +594,7 @@ void RenderLoop::guide_small(const Scene& scene, Picture& to) {
 void RenderLoop::answer(const Step& step) {
     Answer answer = step.question->ask(*step.scene);
     std::lock_guard lock(mutex_);
+    ++count_.answered;
     if (answer) answers_.push_back(std::move(answer));
 }
 

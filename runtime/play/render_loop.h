@@ -22,7 +22,8 @@ namespace kinora {
 using Answer = std::function<void()>;
 struct Question {
     std::function<Answer(ShownScene&)> ask;
-    bool posed = false;  // only once the scene stands as the last order wants it
+    bool posed = false;    // only once the scene has stood as the order before wants it
+    uint64_t ordered = 0;  // by then: set by ask()
 };
 
 class RenderLoop {
@@ -42,7 +43,9 @@ class RenderLoop {
 
     std::shared_ptr<const Picture> picture() const;
     std::vector<Answer> take_answers();
-    bool answered() const;  // all that was asked, and the answers were taken
+    bool answered() const;                    // all that was asked, and the answers were taken
+    uint64_t asked() const;                   // so many questions
+    bool has_answered(uint64_t asked) const;  // the first so many, and the answers were taken
     std::vector<FindingText> take_findings();
     std::vector<StageTimes> times() const;
     uint64_t frames() const;  // begun
@@ -78,6 +81,7 @@ class RenderLoop {
     void end_late_frames();
     bool is_overtaken() const;
     double time_left() const;
+    bool may_answer(const Question& question) const;
     std::optional<Step> next_step();
     void plan(Step& step) const;
     Pass after(const Step& step) const;
@@ -126,6 +130,7 @@ class RenderLoop {
     const Stopwatch since_start_;
     struct {
         uint64_t ordered = 0, made = 0;  // see ordered(), has_made()
+        uint64_t asked = 0, answered = 0, taken = 0;
         uint64_t begun = 0;
     } count_;
     // Of the thread.

@@ -42,9 +42,9 @@ class Script {
     Player& player_;
     std::string name_;
     std::function<void(const std::string&)> report_;
-    int number_ = 0;                   // of the line
-    std::optional<Stopwatch> since_;   // the line that waits
-    std::optional<uint64_t> awaited_;  // the picture that it waits for (Player::ordered)
+    int number_ = 0;                  // of the line
+    std::optional<Stopwatch> since_;  // the line that waits
+    std::optional<Awaited> awaited_;  // the picture that it waits for (Player::ordered)
 };
 
 }  // namespace kinora

@@ -244,6 +244,26 @@ TEST(Script, APictureComesWhileTheSceneGoesOn) {
     EXPECT_EQ(said, "");
 }
 
+// Each turn of a window moves the time, so that another picture is wanted before one is made.
+TEST(Script, AClickIsAnsweredWhileTheSceneGoesOn) {
+    Played played(small_request(scene_path("scenes/walker.dae")), {true, false, nullptr});
+    std::string said;
+    Script script(played.player, "steps", [&](const std::string& line) { said += line; });
+    using enum Script::Progress;
+    ASSERT_TRUE(played.player.wait_idle(60));
+    ASSERT_EQ(script.step("play"), Done);
+    ASSERT_EQ(script.step("click 32 18"), Done);
+    int turns = 0;
+    const auto turn = [&] {
+        played.player.advance(0.001);
+        return script.step("wait picture") == Waits && ++turns < 60'000;
+    };
+    while (turn()) usleep(1000);
+    EXPECT_LT(turns, 60'000);
+    EXPECT_NE(played.player.state().selection.node, "");
+    EXPECT_EQ(said, "");
+}
+
 TEST(Script, StateIsWrittenAsItIsObserved) {
     Played played("scenes/walker.dae");
     std::string file = testing::TempDir() + "kinora_play_state.json";
