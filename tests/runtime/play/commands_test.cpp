@@ -1,6 +1,5 @@
 // tests/runtime/play/commands_test.cpp: every row of the table changes what it says it does.
 #include "runtime/play/commands.h"
-#include "runtime/base/stats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "runtime/base/stats.h"
 #include "runtime/images/image_io.h"
 #include "runtime/play/state.h"
 #include "runtime/trade/knobs.h"
