@@ -420,7 +420,7 @@ uint32_t EmbreeScene::occluded16(const RayPacket16& rays) const {
     load_rays(rays, ray);
     RTCIntersectContext context;
     // Never COHERENT here: rtcOccluded16 of Embree 3.13.5 then loops for ever on some packets
-    // (seen on a few hundred of mixed direction).
+    // (seen on a few hundred of mixed direction, and on some of one octant in court.dae).
     rtcInitIntersectContext(&context);
     {
         DenormalGuard guard;
