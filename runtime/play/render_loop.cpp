@@ -307,11 +307,6 @@ void RenderLoop::end_late_frames() {
     }
 }
 
-// With the lock. While a scene plays, a quick picture is always still to come.
-bool RenderLoop::may_answer(const Question& question) const {
-    return !question.posed || next_ != Pass::Quick || count_.made >= question.ordered;
-}
-
 // With the lock. What is to be done now, if anything.
 std::optional<RenderLoop::Step> RenderLoop::next_step() {
     if (!scene_) return std::nullopt;
@@ -319,7 +314,9 @@ std::optional<RenderLoop::Step> RenderLoop::next_step() {
     step.order = order_;
     step.display = display_;
     step.scene = scene_;
-    if (!questions_.empty() && may_answer(questions_.front())) {
+    const Question* first = questions_.empty() ? nullptr : &questions_.front();
+    // While a scene plays, a quick picture is always still to come.
+    if (first && (!first->posed || next_ != Pass::Quick || count_.made >= first->ordered)) {
         step.question = std::move(questions_.front());
         questions_.pop_front();
         return step;

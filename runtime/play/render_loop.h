@@ -81,7 +81,6 @@ class RenderLoop {
     void end_late_frames();
     bool is_overtaken() const;
     double time_left() const;
-    bool may_answer(const Question& question) const;
     std::optional<Step> next_step();
     void plan(Step& step) const;
     Pass after(const Step& step) const;
