@@ -113,7 +113,7 @@ class Window:
             if len(re.findall(pattern, text, re.M)) >= count:
                 return text
             if self.process.poll() is not None:
-                raise AssertionError(f"the window is gone: {self.process.stderr.read()}")
+                raise AssertionError(f"the window is gone with {self.process.returncode}: {self.process.stderr.read()}")
             if time.monotonic() > end:
                 raise AssertionError(f"no line {pattern} in {seconds} s: {text[-2000:]}")
             time.sleep(0.01)
