@@ -37,7 +37,7 @@ CommandResult write_text(PlayerCore& core, const std::string& file, const std::s
 CommandResult action_explain(PlayerCore& core, const Arguments& a) {
     if (!core.info) return refused("there is no scene yet");
     core.explain_scene();
-    core.wait_for([&] { return core.loop.answered(); }, kExplainSeconds);
+    core.wait_for([&] { return core.loop.has_answered(); }, kExplainSeconds);
     const auto& rows = core.state.explained;
     if (!rows) return refused("the scene is not there yet");
     return write_text(core, a.text(0), explained_json(*rows));

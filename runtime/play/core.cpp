@@ -418,7 +418,7 @@ void PlayerCore::order_thumbnails() {
 void PlayerCore::ask(Question question) {
     send_order();
     loop.ask(std::move(question));
-    if (!setup.real_time) wait_for([&] { return loop.answered(); }, kAnswerSeconds);
+    if (!setup.real_time) wait_for([&] { return loop.has_answered(); }, kAnswerSeconds);
 }
 
 FreeCamera* PlayerCore::own_camera(std::string& why_not) {

@@ -173,11 +173,6 @@ std::vector<Answer> RenderLoop::take_answers() {
     return std::exchange(answers_, {});
 }
 
-bool RenderLoop::answered() const {
-    std::lock_guard lock(mutex_);
-    return !scene_ || (questions_.empty() && answers_.empty() && !working_);
-}
-
 uint64_t RenderLoop::asked() const {
     std::lock_guard lock(mutex_);
     return count_.asked;

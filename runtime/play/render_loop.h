@@ -43,9 +43,9 @@ class RenderLoop {
 
     std::shared_ptr<const Picture> picture() const;
     std::vector<Answer> take_answers();
-    bool answered() const;                    // all that was asked, and the answers were taken
     uint64_t asked() const;                   // so many questions
     bool has_answered(uint64_t asked) const;  // the first so many, and the answers were taken
+    bool has_answered() const { return has_answered(asked()); }
     std::vector<FindingText> take_findings();
     std::vector<StageTimes> times() const;
     uint64_t frames() const;  // begun
