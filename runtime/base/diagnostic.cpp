@@ -84,26 +84,54 @@ std::string_view SourceFiles::text(FileId file) const {
     return at(file).text;
 }
 
+// Lines are looked for when the first finding of a file is printed: most files have none.
+void SourceFiles::File::find_lines() {
+    std::call_once(lines_found, [&] { line_starts = find_line_starts(text); });
+}
+
 LineColumn SourceFiles::line_column(FileId file, uint32_t offset) const {
     File& f = at(file);
-    // Lines are looked for when the first finding of a file is printed: most files have none.
-    std::call_once(f.lines_found, [&] { f.line_starts = find_line_starts(f.text); });
+    f.find_lines();
     auto after = std::upper_bound(f.line_starts.begin(), f.line_starts.end(), offset);
     uint32_t start = after[-1];
     return {int(after - f.line_starts.begin()), int(offset - start) + 1};
 }
 
 std::string_view SourceFiles::line_text(FileId file, int line) const {
-    line_column(file, 0);  // finds the lines
-    const File& f = at(file);
-    if (line < 1 || size_t(line) > f.line_starts.size()) return {};
-    uint32_t begin = f.line_starts[size_t(line) - 1];
+    File& f = at(file);
+    f.find_lines();
+    const std::vector<uint32_t>& starts = f.kept_starts.empty() ? f.line_starts : f.kept_starts;
+    if (line < 1 || size_t(line) > starts.size()) return {};
+    uint32_t begin = starts[size_t(line) - 1];
     // Not looked for: thousands of findings may stand in one long line.
-    bool last = size_t(line) == f.line_starts.size();
-    size_t end = last ? f.text.size() : f.line_starts[size_t(line)] - 1;
+    bool last = size_t(line) == starts.size();
+    size_t end = last ? f.text.size() : starts[size_t(line)] - 1;
     std::string_view text = std::string_view(f.text).substr(begin, end - begin);
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
     return text;
+}
+
+void SourceFiles::cut_long_lines() {
+    std::lock_guard lock(texts_->mutex);
+    for (const std::shared_ptr<File>& file : texts_->files) {
+        File& f = *file;
+        f.find_lines();
+        if (!f.kept_starts.empty()) continue;
+        std::string kept;
+        std::vector<uint32_t> starts;
+        for (size_t i = 0; i < f.line_starts.size(); ++i) {
+            const uint32_t begin = f.line_starts[i];
+            const bool last = i + 1 == f.line_starts.size();
+            const size_t end = last ? f.text.size() : f.line_starts[i + 1] - 1;
+            starts.push_back(uint32_t(kept.size()));
+            kept.append(f.text, begin, std::min<size_t>(end - begin, kLongestKept));
+            if (!last) kept += '\n';
+        }
+        if (kept.size() == f.text.size()) continue;
+        kept.shrink_to_fit();
+        f.text = std::move(kept);
+        f.kept_starts = std::move(starts);
+    }
 }
 
 namespace {
@@ -239,6 +267,8 @@ std::string caret_text(Location where, const SourceFiles& files) {
     if (where.file == kNoFile) return {};
     LineColumn at = files.line_column(where.file, where.begin);
     std::string_view line = files.line_text(where.file, at.line);
+    const bool cut = line.size() == SourceFiles::kLongestKept;
+    if (cut && size_t(at.column) > line.size() + 1) return {};  // what stood there is gone
     size_t column = std::min(size_t(at.column) - 1, line.size());
     size_t first =
         column > kWidestLine / 2 && line.size() > kWidestLine ? column - kWidestLine / 2 : 0;

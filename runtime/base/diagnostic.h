@@ -85,6 +85,11 @@ class SourceFiles {
     std::string_view text(FileId file) const;
     LineColumn line_column(FileId file, uint32_t offset) const;
     std::string_view line_text(FileId file, int line) const;
+    // Frees memory once everything is read: of lines longer than kLongestKept bytes (of numbers, as
+    // a rule) their beginnings alone stay. Lines and columns are told as before. Views of texts
+    // end.
+    void cut_long_lines();
+    static constexpr uint32_t kLongestKept = 1024;
 
   private:
     struct File {
@@ -92,6 +97,8 @@ class SourceFiles {
         std::string text;
         std::once_flag lines_found;
         std::vector<uint32_t> line_starts;
+        std::vector<uint32_t> kept_starts;  // in `text`; empty: the same
+        void find_lines();
     };
     struct Texts {
         std::mutex mutex;

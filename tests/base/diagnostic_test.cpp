@@ -45,6 +45,42 @@ TEST(SourceFiles, AForkSharesWhatThereWasAndKeepsTheRestToItself) {
     EXPECT_EQ(fork.line_text(mine, 2), "y");
 }
 
+TEST(SourceFiles, CutLinesKeepTheirPlaces) {
+    SourceFiles files;
+    const std::string numbers(100'000, '7');
+    const std::string text = "<a>\n" + numbers + "\r\n<b>\n\n" + numbers;
+    FileId id = files.add("a.dae", text), small = files.add("b.sl", "one\r\ntwo");
+    const char* unchanged = files.text(small).data();
+    std::vector<LineColumn> before;
+    for (uint32_t offset = 0; offset <= text.size(); ++offset)
+        before.push_back(files.line_column(id, offset));
+    for (int times = 0; times < 2; ++times) {
+        files.cut_long_lines();
+        EXPECT_LT(files.text(id).size(), 2 * SourceFiles::kLongestKept + 20);
+        EXPECT_EQ(files.text(small).data(), unchanged);
+        for (uint32_t offset = 0; offset <= text.size(); ++offset) {
+            ASSERT_EQ(files.line_column(id, offset).line, before[offset].line) << offset;
+            ASSERT_EQ(files.line_column(id, offset).column, before[offset].column) << offset;
+        }
+        EXPECT_EQ(files.line_text(id, 1), "<a>");
+        EXPECT_EQ(files.line_text(id, 2), numbers.substr(0, SourceFiles::kLongestKept));
+        EXPECT_EQ(files.line_text(id, 3), "<b>");
+        EXPECT_EQ(files.line_text(id, 4), "");
+        EXPECT_EQ(files.line_text(id, 5), numbers.substr(0, SourceFiles::kLongestKept));
+        EXPECT_EQ(files.line_text(small, 1), "one");
+    }
+    Diagnostics diagnostics;
+    diagnostics.files = files;
+    diagnostics.report(kOdd, {id, 10, 12}, "x", 3);
+    diagnostics.report(kOdd, {id, 50'000, 50'002}, "x", 3);
+    const std::string near = format_finding(diagnostics.findings()[0], files),
+                      far = format_finding(diagnostics.findings()[1], files);
+    EXPECT_TRUE(near.starts_with("a.dae:2:7: ")) << near;
+    EXPECT_NE(near.find("^~"), std::string::npos) << near;
+    EXPECT_TRUE(far.starts_with("a.dae:2:49997: ")) << far;
+    EXPECT_EQ(far.find('^'), std::string::npos) << far;  // what stood there is gone
+}
+
 TEST(SourceMap, MapsThroughItsSegments) {
     // "a&lt;b]]>...<![CDATA[c" decoded to "a<bc": the file's offsets jump twice.
     SourceMap map{3, {{0, 100}, {2, 105}, {3, 120}}};

@@ -366,6 +366,7 @@ int Render::frames() {
     scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
     if (options_.frame_target.any())
         if (int code = choose_settings_for_target(*list)) return code;
+    diagnostics_.files.cut_long_lines();
     settings_ = frame_settings(options_, *built_.scene, diagnostics_, &g_signal);
     if (const auto& session = options_.session) {
         choose_camera(*built_.scene, session->camera);
