@@ -111,27 +111,30 @@ std::string_view SourceFiles::line_text(FileId file, int line) const {
     return text;
 }
 
+// Only where that is less than all.
+void SourceFiles::File::cut_long_lines() {
+    find_lines();
+    if (!kept_starts.empty()) return;
+    const auto kept_of = [&](size_t line) {
+        const size_t end = line + 1 < line_starts.size() ? line_starts[line + 1] - 1 : text.size();
+        return std::min<size_t>(end - line_starts[line], kLongestKept);
+    };
+    size_t room = line_starts.size() - 1;
+    for (size_t line = 0; line < line_starts.size(); ++line) room += kept_of(line);
+    if (room == text.size()) return;
+    std::string kept;
+    kept.reserve(room);
+    for (size_t line = 0; line < line_starts.size(); ++line) {
+        if (line > 0) kept += '\n';
+        kept_starts.push_back(uint32_t(kept.size()));
+        kept.append(text, line_starts[line], kept_of(line));
+    }
+    text = std::move(kept);
+}
+
 void SourceFiles::cut_long_lines() {
     std::lock_guard lock(texts_->mutex);
-    for (const std::shared_ptr<File>& file : texts_->files) {
-        File& f = *file;
-        f.find_lines();
-        if (!f.kept_starts.empty()) continue;
-        std::string kept;
-        std::vector<uint32_t> starts;
-        for (size_t i = 0; i < f.line_starts.size(); ++i) {
-            const uint32_t begin = f.line_starts[i];
-            const bool last = i + 1 == f.line_starts.size();
-            const size_t end = last ? f.text.size() : f.line_starts[i + 1] - 1;
-            starts.push_back(uint32_t(kept.size()));
-            kept.append(f.text, begin, std::min<size_t>(end - begin, kLongestKept));
-            if (!last) kept += '\n';
-        }
-        if (kept.size() == f.text.size()) continue;
-        kept.shrink_to_fit();
-        f.text = std::move(kept);
-        f.kept_starts = std::move(starts);
-    }
+    for (const std::shared_ptr<File>& file : texts_->files) file->cut_long_lines();
 }
 
 namespace {

@@ -99,6 +99,7 @@ class SourceFiles {
         std::vector<uint32_t> line_starts;
         std::vector<uint32_t> kept_starts;  // in `text`; empty: the same
         void find_lines();
+        void cut_long_lines();
     };
     struct Texts {
         std::mutex mutex;
