@@ -179,12 +179,14 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
     if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
+    objects_->frame.insight = {};  // what it fills need not be there any more
     return objects_->counted();
 }
 
 ShadingCounters Shading::drop_frame(Diagnostics& diagnostics) {
     objects_->prints.drop();
     objects_->bakes.flush(false, diagnostics);
+    objects_->frame.insight = {};
     return objects_->counted();
 }
 

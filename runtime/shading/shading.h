@@ -27,7 +27,7 @@ class Shading : public raytrace::SurfaceShading {
     // The frame ends as soon as it can once this is not 0; null: never.
     void stop_by(const std::atomic<int>* flag);
     bool stopped() const override;
-    // What the frames to come are to show of their making.
+    // What the next frame is to show of its making, until its end.
     void show(const ShadingInsight& insight);
     // After the last: sums counters; reports faults, one finding a source line.
     // `whole`: the picture was finished, so what it baked is written.

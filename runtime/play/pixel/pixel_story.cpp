@@ -23,6 +23,7 @@ PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
     if (!pose_frame(scene, time, settings, stats, ignored)) return story;
     raytrace::Film film;
     scene.shading->stop_by(settings.stop);
+    scene.shading->show(settings.insight);
     scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers, true);
     RayRecorder shot;
     {

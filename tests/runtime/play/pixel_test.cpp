@@ -1,9 +1,12 @@
 // tests/runtime/play/pixel_test.cpp: what a clicked pixel says, against arithmetic by hand and the
 // picture.
+#include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "runtime/frame/frame.h"
 #include "runtime/play/pixel/pixel_story.h"
+#include "runtime/programs/open/open_scene.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -144,6 +147,36 @@ TEST(Pixel, WithoutASurfaceNothingIsTold) {
     Played played("scenes/walker.dae");
     EXPECT_NE(played.script("variables /tmp/never.json"), "");
     EXPECT_NE(played.script("expect variable Ci 1 0 0 0"), "");
+}
+
+// A frame's measures are of its own size, and may be gone when a pixel is asked about.
+TEST(Pixel, LeavesTheMeasuresOfTheFrameBeforeAlone) {
+    const SceneRequest request = small_request(scene_path("scenes/tintoy.dae"));
+    set_thread_count(request.threads);
+    Diagnostics diagnostics;
+    auto imported = import_requested(request, diagnostics);
+    ASSERT_TRUE(imported);
+    BuiltScene built = build_imported(std::move(*imported), diagnostics);
+    ASSERT_TRUE(built.scene);
+    FrameSettings settings = frame_settings(request, *built.scene, diagnostics);
+    FirstHits first;
+    PixelCosts costs;
+    FrameSettings measured = settings;
+    measured.insight.first = &first;
+    measured.insight.costs = &costs;
+    raytrace::Film film;
+    FrameStats stats;
+    ASSERT_TRUE(render_frame(*built.scene, 0, measured, film, stats, diagnostics));
+    const size_t pixels = size_t(settings.width) * size_t(settings.height);
+    ASSERT_EQ(first.surface.size(), pixels);
+    std::ranges::fill(first.surface, 12345u);
+    const std::vector<float> took = costs.ns;
+    int seen = 0;
+    for (int x = 0; x < settings.width; x += 4)
+        seen += !pixel_story(*built.scene, 0, settings, diagnostics.files, x, 18, 0).points.empty();
+    EXPECT_GE(seen, 5);
+    EXPECT_EQ(std::ranges::count(first.surface, 12345u), ptrdiff_t(pixels));
+    EXPECT_EQ(costs.ns, took);
 }
 
 // The sample's color is the picture's, and the reference comes to the same.
