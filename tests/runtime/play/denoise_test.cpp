@@ -150,13 +150,11 @@ Filtered filtered(const std::string& name, bool moves, uint32_t pictures, int wi
     request.quality.diffuse_depth = 1;
     request.width = width;
     request.height = width * 9 / 16;
-    set_thread_count(2);
-    Diagnostics diagnostics;
-    auto imported = import_requested(request, diagnostics);
-    const FrameRate rate = imported->rate;
-    BuiltScene built = build_imported(std::move(*imported), diagnostics);
-    Scene& scene = *built.scene;
-    FrameSettings settings = frame_settings(request, scene, diagnostics);
+    OpenedScene opened(request);
+    Diagnostics& diagnostics = opened.diagnostics;
+    const FrameRate rate = opened.rate;
+    Scene& scene = *opened.scene;
+    FrameSettings& settings = opened.settings;
     Denoiser denoiser;
     FirstHits hits;
     raytrace::Film film, before, wanted;

@@ -11,7 +11,6 @@
 #include "runtime/play/bytes/byte_kernels.h"
 #include "runtime/play/bytes/shown_bytes.h"
 #include "runtime/play/picture/guide.h"
-#include "runtime/programs/open/open_scene.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -136,23 +135,18 @@ TEST(Guide, RaysBesideEdgesSuffice) {
     SceneRequest request = small_request(scene_path("scenes/walker.dae"));
     request.width = 160;
     request.height = 90;
-    set_thread_count(2);
-    Diagnostics diagnostics;
-    auto imported = import_requested(request, diagnostics);
-    ASSERT_TRUE(imported);
-    BuiltScene built = build_imported(std::move(*imported), diagnostics);
-    ASSERT_TRUE(built.scene);
-    FrameSettings settings = frame_settings(request, *built.scene, diagnostics);
+    OpenedScene opened(request);
+    ASSERT_TRUE(opened.scene);
     FirstHits hits;
     hits.places = true;
-    settings.insight.first = &hits;
+    opened.settings.insight.first = &hits;
     raytrace::Film film;
     FrameStats stats;
-    ASSERT_TRUE(render_frame(*built.scene, 0, settings, film, stats, diagnostics));
+    ASSERT_TRUE(render_frame(*opened.scene, 0, opened.settings, film, stats, opened.diagnostics));
     PictureGuide small, whole, refined;
-    take_guide(hits, built.scene->view, small);
-    make_guide(*built.scene, 320, 180, whole);
-    refine_guide(*built.scene, small, 320, 180, refined);
+    take_guide(hits, opened.scene->view, small);
+    make_guide(*opened.scene, 320, 180, whole);
+    refine_guide(*opened.scene, small, 320, 180, refined);
     size_t taken = 0, surfaces = 0;
     for (size_t k = 0; k < whole.surface.size(); ++k) {
         taken += refined.depth[k] != whole.depth[k];

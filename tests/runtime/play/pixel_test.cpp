@@ -6,7 +6,6 @@
 
 #include "runtime/frame/frame.h"
 #include "runtime/play/pixel/pixel_story.h"
-#include "runtime/programs/open/open_scene.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {
@@ -151,14 +150,9 @@ TEST(Pixel, WithoutASurfaceNothingIsTold) {
 
 // A frame's measures are of its own size, and may be gone when a pixel is asked about.
 TEST(Pixel, LeavesTheMeasuresOfTheFrameBeforeAlone) {
-    const SceneRequest request = small_request(scene_path("scenes/tintoy.dae"));
-    set_thread_count(request.threads);
-    Diagnostics diagnostics;
-    auto imported = import_requested(request, diagnostics);
-    ASSERT_TRUE(imported);
-    BuiltScene built = build_imported(std::move(*imported), diagnostics);
-    ASSERT_TRUE(built.scene);
-    FrameSettings settings = frame_settings(request, *built.scene, diagnostics);
+    OpenedScene opened(small_request(scene_path("scenes/tintoy.dae")));
+    ASSERT_TRUE(opened.scene);
+    const FrameSettings& settings = opened.settings;
     FirstHits first;
     PixelCosts costs;
     FrameSettings measured = settings;
@@ -166,14 +160,15 @@ TEST(Pixel, LeavesTheMeasuresOfTheFrameBeforeAlone) {
     measured.insight.costs = &costs;
     raytrace::Film film;
     FrameStats stats;
-    ASSERT_TRUE(render_frame(*built.scene, 0, measured, film, stats, diagnostics));
+    ASSERT_TRUE(render_frame(*opened.scene, 0, measured, film, stats, opened.diagnostics));
     const size_t pixels = size_t(settings.width) * size_t(settings.height);
     ASSERT_EQ(first.surface.size(), pixels);
     std::ranges::fill(first.surface, 12345u);
     const std::vector<float> took = costs.ns;
     int seen = 0;
     for (int x = 0; x < settings.width; x += 4)
-        seen += !pixel_story(*built.scene, 0, settings, diagnostics.files, x, 18, 0).points.empty();
+        seen += !pixel_story(*opened.scene, 0, settings, opened.diagnostics.files, x, 18, 0)
+                     .points.empty();
     EXPECT_GE(seen, 5);
     EXPECT_EQ(std::ranges::count(first.surface, 12345u), ptrdiff_t(pixels));
     EXPECT_EQ(costs.ns, took);

@@ -11,6 +11,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/play/player.h"
 #include "runtime/play/script.h"
+#include "runtime/programs/open/open_scene.h"
 #include "runtime/trade/quality.h"
 #include "tests/folders.h"
 
@@ -41,6 +42,23 @@ inline SceneRequest small_request(const std::string& scene, int samples = 1) {
     request.quality.samples_per_pixel = samples;
     return request;
 }
+
+// A scene as kinora-render would make frames of it.
+struct OpenedScene {
+    explicit OpenedScene(const SceneRequest& request) {
+        set_thread_count(request.threads);
+        diagnostics.judge(Judgement::Rendering);
+        auto imported = import_requested(request, diagnostics);
+        if (!imported) return;
+        rate = imported->rate;
+        scene = build_imported(std::move(*imported), diagnostics).scene;
+        if (scene) settings = frame_settings(request, *scene, diagnostics);
+    }
+    Diagnostics diagnostics;
+    FrameRate rate;
+    std::unique_ptr<Scene> scene;  // null: it is none
+    FrameSettings settings;
+};
 
 struct Played {
     explicit Played(const SceneRequest& request, PlayerSetup setup = {false, false, nullptr})

@@ -10,17 +10,12 @@ namespace kinora {
 namespace {
 
 raytrace::Film rendered(const SceneRequest& request, int64_t frame) {
-    set_thread_count(request.threads);
-    Diagnostics diagnostics;
-    diagnostics.judge(Judgement::Rendering);
-    auto imported = import_requested(request, diagnostics);
-    FrameRate rate = imported->rate;
-    BuiltScene built = build_imported(std::move(*imported), diagnostics);
-    FrameSettings settings = frame_settings(request, *built.scene, diagnostics);
-    settings.integrator.seed = frame_seed(request, frame);
+    OpenedScene opened(request);
+    opened.settings.integrator.seed = frame_seed(request, frame);
     raytrace::Film film;
     FrameStats stats;
-    EXPECT_TRUE(render_frame(*built.scene, rate.time(frame), settings, film, stats, diagnostics));
+    EXPECT_TRUE(render_frame(*opened.scene, opened.rate.time(frame), opened.settings, film, stats,
+                             opened.diagnostics));
     return film;
 }
 
