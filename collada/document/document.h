@@ -76,6 +76,10 @@ class Document {
     Version version() const { return version_; }
     void judge_as(Version version) { version_ = version; }  // by other rules than its own
     bool whole() const { return whole_; }  // false: an XML error cut it; an Error says so
+    // Whether the error stands inside of the element, which may have had more children.
+    bool cut(const Element& element) const {
+        return !whole_ && element.bytes.end >= root_->bytes.end;
+    }
     uint32_t element_count() const { return element_count_; }
 
     // The first element with this id in document order, or null; further ones by next_same_id.

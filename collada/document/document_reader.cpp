@@ -94,6 +94,12 @@ void DocumentReader::report_syntax() {
         bad_utf8_ = true;
         return;
     }
+    // Expat stops at the first one, or at the tag that holds it.
+    std::vector<uint32_t> bare = kinora::collada::bare_ampersands(text_);
+    if (!bare.empty() && bare[0] <= std::min(text_.find('>', where.begin), text_.size())) {
+        bare_ampersands_ = std::move(bare);
+        return;
+    }
     Finding& finding = diag_.report(Code::XML_SYNTAX, where, error_text(error));
     bool unclosed = error == XML_ERROR_TAG_MISMATCH || error == XML_ERROR_NO_ELEMENTS;
     if (builder_->open().empty() || (!unclosed && where.begin < text_.size())) return;
@@ -143,7 +149,7 @@ void DocumentReader::check_root(Document& document, const Element& root) {
 
 std::optional<Document> DocumentReader::finish() {
     const Element* root = builder_->root();
-    if (bad_utf8_ || !root) return std::nullopt;
+    if (bad_utf8_ || !bare_ampersands_.empty() || !root) return std::nullopt;
     if (root->name != "COLLADA") {
         diag_.report(Code::DOC_ROOT, Location{file_, root->start_tag.begin, root->start_tag.end},
                      root->name);

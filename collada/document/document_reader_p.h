@@ -16,7 +16,9 @@ class DocumentReader {
 
     std::optional<Document> read();
     std::optional<Document> read_by_expat();  // the same, whatever the text
+    // What made it end without a finding: who mends that reads anew.
     bool bad_utf8() const { return bad_utf8_; }
+    const std::vector<uint32_t>& bare_ampersands() const { return bare_ampersands_; }
 
   private:
     static void XMLCALL on_start(void* self, const XML_Char* name, const XML_Char** attributes) {
@@ -62,6 +64,7 @@ class DocumentReader {
     std::vector<Attribute> attributes_;
     bool stopped_ = false;
     bool bad_utf8_ = false;
+    std::vector<uint32_t> bare_ampersands_;
 };
 
 }  // namespace kinora::collada

@@ -1,5 +1,6 @@
 // collada/extract/asset.cpp: units and axes, of documents and of elements with an <asset>; the
 // played range.
+#include <cctype>
 #include <cmath>
 
 #include "collada/extract/extract_p.h"
@@ -35,19 +36,39 @@ void read_unit(const Document& document, const Element& unit, Asset& asset, Diag
             diag.report(Code::UNIT_CONFLICT, document.location(unit), row.name, asset.meter);
 }
 
+struct UpAxisName {
+    std::string_view name;
+    UpAxis axis;
+};
+constexpr UpAxisName kUpAxes[] = {{"X_UP", UpAxis::X}, {"Y_UP", UpAxis::Y}, {"Z_UP", UpAxis::Z}};
+
+// "z_up", "Z-UP", "Zup" and "Z" are Z_UP's.
+bool spells(std::string_view text, std::string_view name) {
+    std::string letters;
+    for (char c : text)
+        if (std::isalnum(uint8_t(c))) letters += char(std::toupper(uint8_t(c)));
+    return letters == name.substr(0, 1) || letters == std::string(name.substr(0, 1)) + "UP";
+}
+
+UpAxis read_up_axis(const Document& document, const Element& up, Diagnostics& diag) {
+    std::string_view text = trim(up.text);
+    for (const UpAxisName& row : kUpAxes)
+        if (text == row.name) return row.axis;
+    for (const UpAxisName& row : kUpAxes) {
+        if (!spells(text, row.name)) continue;
+        diag.report(Code::UPAXIS_SPELLING, document.text_location(up), text, row.name);
+        return row.axis;
+    }
+    diag.report(Code::UPAXIS_VALUE, document.text_location(up), text);
+    return UpAxis::Y;
+}
+
 // Of an <asset>: what it leaves out has the format's default.
 Asset read_values(const Document& document, const Element& element, Diagnostics& diag) {
     Asset asset;
     if (const Element* unit = element.child("unit")) read_unit(document, *unit, asset, diag);
-    if (const Element* up = element.child("up_axis")) {
-        std::string_view axis = trim(up->text);
-        if (axis == "X_UP")
-            asset.up_axis = UpAxis::X;
-        else if (axis == "Z_UP")
-            asset.up_axis = UpAxis::Z;
-        else if (axis != "Y_UP")
-            diag.report(Code::UPAXIS_VALUE, document.text_location(*up), axis);
-    }
+    if (const Element* up = element.child("up_axis"))
+        asset.up_axis = read_up_axis(document, *up, diag);
     return asset;
 }
 

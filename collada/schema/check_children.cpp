@@ -158,6 +158,7 @@ void ElementChecker::disordered_child(const Element& element, const ElementType&
 
 void ElementChecker::missing_children(const Element& element, const ElementType& type,
                                       uint16_t at) {
+    if (document_.cut(element)) return;
     const ContentModel& model = type.rules().content;
     bool library = element.name.starts_with("library_");
     if (library && first(Code::SCHEMA_EMPTY_LIBRARY, &type, element.name))

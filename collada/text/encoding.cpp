@@ -85,9 +85,13 @@ bool valid_utf8(std::string_view text) {
 namespace {
 
 // The encoding named in <?xml ... encoding="..."?>, in lower case; "" if none.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // in UTF-8
+
 std::string declared_encoding(std::string_view text) {
-    if (!text.starts_with("<?xml")) return {};
-    std::string_view declaration = text.substr(0, std::min(text.find("?>"), size_t(256)));
+    std::optional<ByteRange> range = xml_declaration(text);
+    if (!range) return {};
+    std::string_view declaration =
+        text.substr(range->begin, std::min<size_t>(range->end - range->begin, 256));
     size_t at = declaration.find("encoding");
     if (at == std::string_view::npos) return {};
     size_t open = declaration.find_first_of("'\"", at);
@@ -122,6 +126,23 @@ constexpr Magic kNotXml[] = {
 constexpr std::string_view kUnicode[] = {"", "utf-8", "utf8", "utf-16", "utf-16le", "utf-16be"};
 
 template <size_t N>
+std::optional<ByteRange> xml_declaration(std::string_view text) {
+    for (size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos;) {
+        std::string_view rest = text.substr(at);
+        size_t end = text.npos;
+        if (rest.starts_with("<?xml") && rest.find_first_of(" \t\r\n") == 5) {
+            end = text.find("?>", at);
+            if (end == text.npos) return std::nullopt;
+            return ByteRange{uint32_t(at), uint32_t(end + 2)};
+        }
+        if (rest.starts_with("<!--")) end = text.find("-->", at + 4);
+        if (rest.starts_with(kByteOrderMark)) end = at;
+        if (end == text.npos) break;
+        at = end + 3;  // of "-->", or of the mark
+    }
+    return std::nullopt;
+}
+
 bool contains(const std::string_view (&names)[N], std::string_view name) {
     for (std::string_view n : names)
         if (n == name) return true;
@@ -138,8 +159,8 @@ DecodedText decode_text(std::string bytes) {
     if (view.starts_with("\xfe\xff")) return {utf8_from_utf16(view.substr(2), true), {}, {}};
     if (view.starts_with(std::string_view("<\0", 2))) return {utf8_from_utf16(view, false), {}, {}};
     if (view.starts_with(std::string_view("\0<", 2))) return {utf8_from_utf16(view, true), {}, {}};
-    if (view.starts_with("\xef\xbb\xbf")) {
-        bytes.erase(0, 3);
+    if (view.starts_with(kByteOrderMark)) {
+        bytes.erase(0, kByteOrderMark.size());
         return {std::move(bytes), {}, {}};
     }
     std::string encoding = declared_encoding(view);

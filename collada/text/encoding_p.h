@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "collada/text/byte_range.h"
 #include "runtime/base/percent_encoding.h"
 
 namespace kinora::collada {
@@ -14,6 +15,10 @@ struct DecodedText {
     std::string error;    // "a gzip file": it is no text at all
     std::string recoded;  // "Latin-1": the text was transcoded although the file did not say so
 };
+
+// The declaration <?xml ...?> of a text, also where white space, comments or a byte order mark
+// stand before it, which XML forbids (XML 1.0, 2.8); nothing for a text without one.
+std::optional<ByteRange> xml_declaration(std::string_view text);
 
 // Sees BOMs, UTF-16 without BOM, the XML declaration's encoding, and archives in disguise.
 DecodedText decode_text(std::string bytes);

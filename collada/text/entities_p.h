@@ -1,9 +1,11 @@
-// collada/text/entities_p.h: where a text uses an entity that its document type would have to
-// explain.
+// collada/text/entities_p.h: references of a text: to entities that its document type would have to
+// explain, and ampersands that begin no reference.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "collada/text/byte_range.h"
 
@@ -14,5 +16,11 @@ namespace kinora::collada {
 // Declarations alone are no use; a default of <!ATTLIST> that names an entity is. No entity is ever
 // expanded: who parses, parses up to here.
 std::optional<ByteRange> find_entity_use(std::string_view text);
+
+// Each '&' of UTF-8 text that begins no reference XML knows: "Salt & Pepper", "a&b", and "&nbsp;"
+// where no document type could declare it.
+std::vector<uint32_t> bare_ampersands(std::string_view text);
+// The text with "&amp;" in the place of the '&' at these bytes, which ascend.
+std::string escape_ampersands(std::string_view text, const std::vector<uint32_t>& at);
 
 }  // namespace kinora::collada

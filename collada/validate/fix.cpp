@@ -5,11 +5,14 @@
 #include <set>
 #include <utility>
 
+#include "collada/text/encoding_p.h"
 #include "collada/validate/fix_p.h"
 
 namespace kinora::collada {
 
 namespace {
+
+using Wanted = bool (*)(const FindingInfo&, const void*);
 
 struct Fixer {
     const FindingInfo* info;
@@ -37,9 +40,13 @@ const std::vector<Fixer>& fixers() {
         {&Code::FILE_FALLBACK, fix_path},
         {&Code::SCHEMA_EMPTY_LIBRARY, fix_empty_libraries},
         {&Code::SCHEMA_ORDER, fix_order},
+        {&Code::UPAXIS_SPELLING, fix_up_axis},
     };
     return kFixers;
 }
+
+// What the reader mends in the text itself.
+constexpr const FindingInfo* kMendedByReading[] = {&Code::XML_AMPERSAND, &Code::XML_DECLARATION};
 
 // Elements nest, and an element that moves takes its own disorder along: a round a level.
 constexpr int kMostRounds = 64;
@@ -84,6 +91,20 @@ void add_counts(std::vector<FixCount>& sum, const std::vector<FixCount>& counts)
     }
 }
 
+bool is_recoded(std::string_view bytes) {
+    return bytes.starts_with("\xef\xbb\xbf") || !valid_utf8(bytes);
+}
+
+std::vector<FixCount> mended_by_reading(const Diagnostics& diagnostics, Wanted wanted,
+                                        const void* context) {
+    std::vector<FixCount> counts;
+    for (const FindingInfo* info : kMendedByReading) {
+        auto count = std::ranges::count(diagnostics.findings(), info, &Finding::info);
+        if (count > 0 && wanted(*info, context)) counts.push_back({info, size_t(count)});
+    }
+    return counts;
+}
+
 }  // namespace
 
 FixResult fix_text(const std::string& path, std::string text, const ValidateOptions& options,
@@ -101,7 +122,8 @@ FixResult fix_text(const std::string& path, std::string text, const ValidateOpti
             decoded != result.text) {
             if (!original.empty()) break;
             original = std::exchange(result.text, declared_utf8(decoded));
-            result.recoded = decoded;
+            if (is_recoded(original)) result.recoded = decoded;
+            add_counts(result.fixes, mended_by_reading(diagnostics, wanted, context));
             continue;
         }
         std::optional<SceneData> scene = validate(*document, diagnostics, options);
@@ -122,6 +144,7 @@ FixResult fix_text(const std::string& path, std::string text, const ValidateOpti
 std::vector<const FindingInfo*> fixable_findings() {
     std::vector<const FindingInfo*> list;
     for (const Fixer& fixer : fixers()) list.push_back(fixer.info);
+    list.insert(list.end(), std::begin(kMendedByReading), std::end(kMendedByReading));
     return list;
 }
 

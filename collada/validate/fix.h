@@ -24,9 +24,10 @@ struct FixResult {
 };
 
 // Repairs `text` until nothing more can be done: order of children, empty libraries, paths, counts,
-// decimal commas, links without '#'. Every byte no repair needs stays. `path` is that of the
-// document: paths in it are made relative to its folder. `wanted` says whether a code is to be
-// repaired. A text that is no whole XML is left alone. Repairing the result again changes nothing.
+// decimal commas, links without '#', single '&', up axes. Every byte no repair needs stays. `path`
+// is that of the document: paths in it are made relative to its folder. `wanted` says whether a
+// code is to be repaired. A text that is no whole XML is left alone. Repairing the result again
+// changes nothing.
 FixResult fix_text(const std::string& path, std::string text, const ValidateOptions& options,
                    bool (*wanted)(const FindingInfo&, const void*), const void* context);
 

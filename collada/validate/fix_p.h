@@ -32,5 +32,6 @@ void fix_primitive_count(FixContext& context);
 void fix_comma_decimals(FixContext& context);
 void fix_missing_hash(FixContext& context);
 void fix_path(FixContext& context);
+void fix_up_axis(FixContext& context);
 
 }  // namespace kinora::collada

@@ -110,6 +110,18 @@ void fix_missing_hash(FixContext& context) {
     for (uint32_t at : offsets) context.edits.push_back({{at, at}, "#"});
 }
 
+// Its first letter is the axis, however the rest is spelt.
+void fix_up_axis(FixContext& context) {
+    for (const Finding* finding : context.findings) {
+        std::string_view text = written(context, finding->where);
+        auto letter = std::find_if(text.begin(), text.end(),
+                                   [](char c) { return std::isalpha(uint8_t(c)) != 0; });
+        if (letter == text.end()) continue;
+        context.edits.push_back({{finding->where.begin, finding->where.end},
+                                 fmt::format("{}_UP", char(std::toupper(uint8_t(*letter))))});
+    }
+}
+
 void fix_path(FixContext& context) {
     for (const Finding* finding : context.findings) {
         std::string_view bytes = written(context, finding->where);

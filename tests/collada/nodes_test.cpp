@@ -188,6 +188,33 @@ TEST(Asset, ReadsUnitsAxesAndRanges) {
     EXPECT_EQ(odd.scene->frame_rate, 30.0);
 }
 
+TEST(Asset, AnAxisInOtherLettersIsUnderstood) {
+    struct Row {
+        const char* written;
+        UpAxis axis;
+    };
+    const Row rows[] = {{"z_up", UpAxis::Z}, {"Z_Up", UpAxis::Z}, {"Z-UP", UpAxis::Z},
+                        {"zUp", UpAxis::Z},  {"Z", UpAxis::Z},    {" x_up ", UpAxis::X},
+                        {"y", UpAxis::Y},    {"Y_up", UpAxis::Y}};
+    for (const Row& row : rows) {
+        Reading r;
+        read_text(r,
+                  with_scene(std::string("<asset><up_axis>") + row.written + "</up_axis></asset>",
+                             "<node id=\"n\"/>"));
+        EXPECT_EQ(r.scene->asset.up_axis, row.axis) << row.written;
+        EXPECT_EQ(r.count("UPAXIS_SPELLING"), 1u) << row.written;
+        EXPECT_EQ(r.count("UPAXIS_VALUE"), 0u) << row.written;
+    }
+    for (const char* unknown : {"UP_Y", "W", "", "ZZ_UP", "Z_UPS", "-Z2"}) {
+        Reading r;
+        read_text(r, with_scene(std::string("<asset><up_axis>") + unknown + "</up_axis></asset>",
+                                "<node id=\"n\"/>"));
+        EXPECT_EQ(r.scene->asset.up_axis, UpAxis::Y) << unknown;
+        EXPECT_EQ(r.count("UPAXIS_VALUE"), 1u) << unknown;
+        EXPECT_EQ(r.count("UPAXIS_SPELLING"), 0u) << unknown;
+    }
+}
+
 TEST(Asset, AUnitWithADecimalCommaIsUnderstood) {
     Reading r;
     read_text(r, with_scene("<asset><unit meter=\"0,010000\" name=\"centimeter\"/></asset>",
