@@ -6,6 +6,7 @@
 #include <span>
 
 #include "collada/text/encoding_p.h"
+#include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
 
 namespace kinora::collada {
@@ -84,9 +85,9 @@ bool valid_utf8(std::string_view text) {
 
 namespace {
 
-// The encoding named in <?xml ... encoding="..."?>, in lower case; "" if none.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // in UTF-8
 
+// The encoding named in <?xml ... encoding="..."?>, in lower case; "" if none.
 std::string declared_encoding(std::string_view text) {
     std::optional<ByteRange> range = xml_declaration(text);
     if (!range) return {};
@@ -109,16 +110,7 @@ struct Magic {
 };
 
 constexpr Magic kNotXml[] = {
-    {"\x1f\x8b", "it is a gzip file"},
-    {"PK\x03\x04", "it is a zip archive (.zae or .kmz); unpack it"},
-    {"version https://git-lfs", "it is a Git LFS pointer; run 'git lfs pull'"},
-    {"BZh", "it is a bzip2 file"},
-    {"\xfd"
-     "7zXZ",
-     "it is an xz file"},
     {"glTF", "it is a binary glTF"},
-    {"Kaydara FBX", "it is an FBX file"},
-    {"BLENDER", "it is a Blender file"},
     {std::string_view("\xff\xfe\0\0", 4), "UTF-32 is not read"},
     {std::string_view("\0\0\xfe\xff", 4), "UTF-32 is not read"},
 };
@@ -126,6 +118,14 @@ constexpr Magic kNotXml[] = {
 constexpr std::string_view kUnicode[] = {"", "utf-8", "utf8", "utf-16", "utf-16le", "utf-16be"};
 
 template <size_t N>
+bool contains(const std::string_view (&names)[N], std::string_view name) {
+    for (std::string_view n : names)
+        if (n == name) return true;
+    return false;
+}
+
+}  // namespace
+
 std::optional<ByteRange> xml_declaration(std::string_view text) {
     for (size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos;) {
         std::string_view rest = text.substr(at);
@@ -143,16 +143,9 @@ std::optional<ByteRange> xml_declaration(std::string_view text) {
     return std::nullopt;
 }
 
-bool contains(const std::string_view (&names)[N], std::string_view name) {
-    for (std::string_view n : names)
-        if (n == name) return true;
-    return false;
-}
-
-}  // namespace
-
 DecodedText decode_text(std::string bytes) {
     std::string_view view = bytes;
+    if (const char* what = disguise_of(view)) return {{}, what, {}};
     for (const Magic& magic : kNotXml)
         if (view.starts_with(magic.bytes)) return {{}, magic.what, {}};
     if (view.starts_with("\xff\xfe")) return {utf8_from_utf16(view.substr(2), false), {}, {}};

@@ -59,4 +59,31 @@ std::optional<std::string> read_regular_file(const std::string& path, uint64_t m
     return bytes;
 }
 
+namespace {
+
+struct Magic {
+    std::string_view bytes;
+    const char* what;
+};
+
+constexpr Magic kDisguises[] = {
+    {"version https://git-lfs", "it is a Git LFS pointer; run 'git lfs pull'"},
+    {"\x1f\x8b", "it is a gzip file"},
+    {"PK\x03\x04", "it is a zip archive (.zae or .kmz); unpack it"},
+    {"BZh", "it is a bzip2 file"},
+    {"\xfd"
+     "7zXZ",
+     "it is an xz file"},
+    {"Kaydara FBX", "it is an FBX file"},
+    {"BLENDER", "it is a Blender file"},
+};
+
+}  // namespace
+
+const char* disguise_of(std::string_view first_bytes) {
+    for (const Magic& magic : kDisguises)
+        if (first_bytes.starts_with(magic.bytes)) return magic.what;
+    return nullptr;
+}
+
 }  // namespace kinora

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace kinora {
 
@@ -28,5 +29,9 @@ OpenFile open_regular_file(const std::string& path, uint64_t& size, std::string*
 // All of it; nothing where it has more than `most` bytes.
 std::optional<std::string> read_regular_file(const std::string& path, uint64_t most = UINT64_MAX,
                                              std::string* error = nullptr);
+
+// "it is a Git LFS pointer; ...": what the first bytes of a file say that it is instead of text, a
+// model or a picture, whatever its name; null where they say nothing of the kind.
+const char* disguise_of(std::string_view first_bytes);
 
 }  // namespace kinora

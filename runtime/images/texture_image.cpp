@@ -166,6 +166,8 @@ std::string read_texture_image(const std::string& name, TextureImage& image) {
     const std::string& path = file.path();
     Header header;
     if (std::string error = read_header(path, header); !error.empty()) return error;
+    const char* first = reinterpret_cast<const char*>(header.data());
+    if (const char* what = disguise_of({first, header.size()})) return what;
     try {
         if (is_png(header)) {
             uint64_t width = big_endian_32(&header[16]), height = big_endian_32(&header[20]);

@@ -12,20 +12,11 @@ namespace kinora {
 
 namespace {
 
+// Extensions that say of a buffer that its bytes are made from those of another one.
+constexpr std::string_view kPackedBy[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
 std::string_view part(std::string_view json, JsonRange range) {
     return json.substr(range.begin, range.end - range.begin);
-}
-
-// tinygltf recurses by depth and takes about a kilobyte an object.
-std::string check_shape(std::string_view json, size_t bytes) {
-    JsonShape shape = json_shape(json);
-    if (shape.depth > kMaxGltfDepth)
-        return fmt::format("its JSON is nested {} deep, more than {}", shape.depth, kMaxGltfDepth);
-    size_t limit = std::min(kMaxGltfContainers, size_t(65536) + bytes / 16);
-    if (shape.containers > limit)
-        return fmt::format("its JSON has {} arrays and objects, more than {}", shape.containers,
-                           limit);
-    return "";
 }
 
 // The .glb's binary chunk belongs to the first buffer alone (glTF 2.0, 4.4.3.3); tinygltf copies it
@@ -33,6 +24,9 @@ std::string check_shape(std::string_view json, size_t bytes) {
 std::string check_buffers(const std::vector<GltfBuffer>& buffers, bool binary) {
     for (size_t b = 0; b < buffers.size(); ++b) {
         if (!buffers[b].uri.empty() || buffers[b].data) continue;
+        if (!buffers[b].packed_by.empty())
+            return fmt::format("buffer {} has no uri: {} fills it, which is not supported", b,
+                               buffers[b].packed_by);
         if (!binary) return fmt::format("buffer {} has no uri", b);
         if (b > 0) return fmt::format("buffer {} has no uri and is not the first", b);
         if (buffers[b].bytes == 0) return "buffer 0 has no bytes";
@@ -77,6 +71,9 @@ std::vector<GltfBuffer> gltf_buffers(std::string_view json) {
         GltfBuffer& buffer = buffers.emplace_back();
         double bytes = json_number(text, "/byteLength", 0);
         buffer.bytes = bytes > 0 && bytes < 1e15 ? size_t(bytes) : 0;
+        for (std::string_view extension : kPackedBy)
+            if (json_find(text, fmt::format("/extensions/{}", extension)))
+                buffer.packed_by = extension;
         std::optional<JsonRange> uri = json_find(text, "/uri");
         if (!uri) continue;
         buffer.data = part(text, *uri).starts_with("\"data:");
@@ -108,11 +105,21 @@ void cut_gltf_data(std::span<char> json) {
     }
 }
 
-std::string check_gltf_json(std::string_view json, size_t bytes, bool binary) {
-    std::string error = check_shape(json, bytes);
-    if (!error.empty()) return error;
+// tinygltf recurses by depth and takes about a kilobyte an object.
+std::string check_gltf_shape(std::string_view json, size_t bytes) {
+    JsonShape shape = json_shape(json);
+    if (shape.depth > kMaxGltfDepth)
+        return fmt::format("its JSON is nested {} deep, more than {}", shape.depth, kMaxGltfDepth);
+    size_t limit = std::min(kMaxGltfContainers, size_t(65536) + bytes / 16);
+    if (shape.containers > limit)
+        return fmt::format("its JSON has {} arrays and objects, more than {}", shape.containers,
+                           limit);
+    return "";
+}
+
+std::string check_gltf_json(std::string_view json, bool binary) {
     std::vector<GltfBuffer> buffers = gltf_buffers(json);
-    error = check_buffers(buffers, binary);
+    std::string error = check_buffers(buffers, binary);
     return error.empty() ? check_images(json, buffers) : error;
 }
 

@@ -14,6 +14,7 @@ struct GltfBuffer {
     std::string uri;  // "" for the .glb's own and for data URIs
     bool data = false;
     size_t bytes = 0;
+    std::string_view packed_by;  // the extension that makes its bytes from others; "": it has them
 };
 std::vector<GltfBuffer> gltf_buffers(std::string_view json);
 
@@ -21,8 +22,11 @@ std::vector<GltfBuffer> gltf_buffers(std::string_view json);
 // 3.6.1.1), which tinygltf refuses. Spaces fill the JSON to its old length.
 void cut_gltf_data(std::span<char> json);
 
-// "" or why the file is refused: JSON nested too deep or too large for its `bytes`, several buffers
-// that would each copy a .glb's binary chunk, images outside their buffers.
-std::string check_gltf_json(std::string_view json, size_t bytes, bool binary);
+// "" or why the file is refused: JSON nested too deep or too large for its `bytes`.
+std::string check_gltf_shape(std::string_view json, size_t bytes);
+
+// The same: several buffers that would each copy a .glb's binary chunk, images outside their
+// buffers.
+std::string check_gltf_json(std::string_view json, bool binary);
 
 }  // namespace kinora

@@ -57,6 +57,10 @@ std::string read_bytes(const std::string& path, size_t limit, std::vector<unsign
 }
 
 uint32_t little_endian_32(const unsigned char* at) {
+std::string_view text_of(const std::vector<unsigned char>& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
     return uint32_t(at[0]) | uint32_t(at[1]) << 8 | uint32_t(at[2]) << 16 | uint32_t(at[3]) << 24;
 }
 
@@ -122,6 +126,7 @@ bool read_file(std::vector<unsigned char>* out, std::string* error, const std::s
     std::string plain = fs::path(path).lexically_normal().string();
     *error = read_bytes(path, guard.wanted_bytes(plain), *out);
     guard.file.bytes += out->size();
+    if (const char* what = disguise_of(text_of(*out)); what && error->empty()) *error = what;
     guard.file.files.push_back(plain);
     return error->empty();
 }
@@ -269,7 +274,8 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     if (bytes.empty()) return fail("the file is empty");
     file.bytes = bytes.size();
     file.files.push_back(path);
-    std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::string_view json = text_of(bytes);
+    if (const char* what = disguise_of(json)) return fail(what);
     if (is_binary(bytes)) {
         if (std::string error = json_chunk(bytes, json); !error.empty()) return fail(error);
     } else if (json.starts_with("\xef\xbb\xbf")) {
@@ -277,12 +283,15 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     }
     file.file = diagnostics.files.add(path, std::string(json));
     file.json = diagnostics.files.text(file.file);
-    std::string error = check_gltf_json(file.json, bytes.size(), is_binary(bytes));
+    std::string error = check_gltf_shape(file.json, bytes.size());
     if (error.empty()) error = check_version(file.json);
     if (!error.empty()) return fail(error);
     if (!check_extensions(file, diagnostics)) return std::nullopt;
     Guard guard{options, diagnostics, file, {}};
+    // What is required of readers says why buffers and accessors look broken to one without it.
     for (const GltfBuffer& buffer : gltf_buffers(file.json))
+    error = check_gltf_json(file.json, is_binary(bytes));
+    if (!error.empty()) return fail(error);
         if (!buffer.uri.empty()) guard.sizes[gltf_path(file, buffer.uri)] = buffer.bytes;
     // As it stands in `bytes`, a .glb's among its other chunks.
     size_t begin = size_t(json.data() - reinterpret_cast<const char*>(bytes.data()));

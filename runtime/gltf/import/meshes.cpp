@@ -18,6 +18,8 @@ namespace {
 constexpr uint32_t kPoint[] = {3}, kTangent[] = {4}, kTexcoord[] = {2}, kColor[] = {3, 4},
                    kAny[] = {1, 2, 3, 4};
 
+constexpr std::string_view kPacking[] = {"KHR_draco_mesh_compression"};
+
 constexpr const char* kModes[] = {"points",    "lines",           "line loops",   "line strips",
                                   "triangles", "triangle strips", "triangle fans"};
 
@@ -230,6 +232,18 @@ std::vector<uint32_t> MeshImporter::finite_triangles(const std::vector<uint32_t>
     return finite;
 }
 
+// The extension that holds a primitive's numbers in place of its accessors: one that stands beside
+// them leaves them whole.
+std::string_view MeshImporter::packed_by(const tinygltf::Primitive& primitive) const {
+    auto position = primitive.attributes.find("POSITION");
+    bool whole = position != primitive.attributes.end() && position->second >= 0 &&
+                 size_t(position->second) < model_.accessors.size() &&
+                 model_.accessors[size_t(position->second)].bufferView >= 0;
+    for (std::string_view extension : kPacking)
+        if (!whole && primitive.extensions.contains(std::string(extension))) return extension;
+    return "";
+}
+
 void MeshImporter::import_primitive(uint32_t mesh, uint32_t index) {
     const tinygltf::Primitive& from = model_.meshes[mesh].primitives[index];
     PrimitiveVertices& vertices = vertices_[mesh][index];
@@ -241,6 +255,11 @@ void MeshImporter::import_primitive(uint32_t mesh, uint32_t index) {
     }
     if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         report_.add(Code::GLTF_PRIMITIVE, pointer + "/mode", fmt::format("{} is no mode", mode));
+        return;
+    }
+    if (std::string_view extension = packed_by(from); !extension.empty()) {
+        report_.add(Code::GLTF_PRIMITIVE, pointer,
+                    fmt::format("{} packs it, which is not supported", extension));
         return;
     }
     if (!find_vertices(mesh, index, pointer)) return;

@@ -29,6 +29,7 @@ class MeshImporter {
     std::span<const PrimitiveVertices> primitives(uint32_t mesh) const { return vertices_[mesh]; }
 
   private:
+    std::string_view packed_by(const tinygltf::Primitive& primitive) const;
     void import_primitive(uint32_t mesh, uint32_t primitive);
     bool find_vertices(uint32_t mesh, uint32_t primitive, const std::string& pointer);
     bool read_positions(int accessor, const std::string& pointer, PrimitiveVertices& vertices,

@@ -167,6 +167,19 @@ TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
     GltfText draco = whole_scene();
     draco.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     refused(draco.glb(), ".glb", "GLTF_EXTENSION_REQUIRED", "KHR_draco_mesh_compression");
+    GltfText packed = whole_scene();  // as gltfpack writes it: a buffer that is made by unpacking
+    packed.json["buffers"].push_back(
+        {{"byteLength", 64}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+    refused(packed.glb(), ".glb", "GLTF_INVALID", "EXT_meshopt_compression");
+    packed.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    refused(packed.glb(), ".glb", "GLTF_EXTENSION_REQUIRED", "EXT_meshopt_compression");
+    EXPECT_EQ(described(packed.glb())->count("GLTF_INVALID"), 0);
+    const char* pointer =
+        "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 335626\n";
+    refused(pointer, ".glb", "GLTF_INVALID", "Git LFS pointer");
+    refused(pointer, ".gltf", "GLTF_INVALID", "git lfs pull");
+    refused("PK\3\4rest", ".glb", "GLTF_INVALID", "zip archive");
+    refused("\x1f\x8brest", ".gltf", "GLTF_INVALID", "gzip");
     GltfText image = whole_scene();
     image.json["bufferViews"][0]["byteOffset"] = 1u << 30;
     refused(image.glb(), ".glb", "GLTF_INVALID", "image 0");
@@ -175,6 +188,40 @@ TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
     json two = twice.json;
     two["buffers"] = {{{"byteLength", 4}}, {{"byteLength", 4}}};
     refused(two.dump(), ".gltf", "GLTF_INVALID", "no uri");
+}
+
+// KHR_draco_mesh_compression: the accessors of what is packed have no buffer view, those of what
+// stands beside it for readers without the extension do.
+TEST(GltfHostile, APackedPrimitiveIsNamedUnlessItsNumbersStandBesideIt) {
+    GltfText g;
+    g.node({{"mesh", g.square()}});
+    g.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    json& primitive = g.json["meshes"][0]["primitives"][0];
+    primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+    auto beside = described(g.glb());
+    ASSERT_TRUE(beside->scene) << beside->findings();
+    EXPECT_EQ(beside->scene->meshes.at(0).groups.size(), 1u);
+    EXPECT_EQ(beside->count("GLTF_PRIMITIVE"), 0) << beside->findings();
+    for (const auto& [name, accessor] : primitive["attributes"].items())
+        g.json["accessors"][size_t(accessor)].erase("bufferView");
+    auto packed = described(g.glb());
+    ASSERT_TRUE(packed->scene) << packed->findings();
+    EXPECT_TRUE(packed->scene->meshes.at(0).groups.empty());
+    EXPECT_EQ(packed->count("GLTF_PRIMITIVE"), 1) << packed->findings();
+    EXPECT_NE(packed->findings().find("KHR_draco_mesh_compression packs it"), std::string::npos);
+}
+
+TEST(GltfHostile, ABufferThatIsAPointerIsNamed) {
+    GltfText g;
+    g.node({{"mesh", g.square()}});
+    GltfFileOnDisk pointer(
+        "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 335626\n", ".bin");
+    json whole = g.json;
+    std::string name = std::filesystem::path(pointer.path()).filename().string();
+    whole["buffers"] = {{{"byteLength", g.bytes.size()}, {"uri", name}}};
+    auto d = described(whole.dump(), ".gltf");
+    EXPECT_FALSE(d->scene);
+    EXPECT_NE(d->findings().find("Git LFS pointer"), std::string::npos) << d->findings();
 }
 
 TEST(GltfHostile, FilesOutsideTheFolderAreNotRead) {
