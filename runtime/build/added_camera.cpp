@@ -1,16 +1,13 @@
-// runtime/build/added_camera.cpp: a camera that no file brought: where it stands, what it frames
-// and how it moves.
+// runtime/build/added_camera.cpp: a camera that no file brought: where it stands and how it moves.
 #include "runtime/build/added_camera.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
-#include "runtime/build/coverage.h"
+#include "runtime/build/added_camera_p.h"
 #include "runtime/build/shapes/bounds.h"
 #include "runtime/build/shapes/pose_at.h"
-#include "runtime/build/shapes/shown_vertices.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/values.h"
 
@@ -18,72 +15,10 @@ namespace kinora {
 
 namespace {
 
-constexpr double kYfov = 37.0;       // degrees
-constexpr double kMostYfov = 170;    // of a picture's width, too
 constexpr int kMostPathTimes = 241;  // that a moving centre is looked up at
-// What is stray: further from the median vertex than so many times what all but a few are.
-constexpr double kCoreShare = 0.98, kCoreReach = 1.25;
 constexpr char kName[] = "default camera";
 
-// Keys for numbers of a node that is being added.
-struct Motion {
-    uint32_t slot = kNone;  // in SceneDescription::values
-    std::vector<double> times, values;
-    anim::Behaviour beyond = anim::Behaviour::Constant;
-};
-
-// Where a camera stands, relative to `origin`, which may move.
-struct Stand {
-    ViewAxes axes;
-    dvec3 eye{0.0};
-    double half_height = 0;  // of parallel rays; 0: perspective
-    double reach = 0;        // how far from `origin` what it frames is
-};
-
-class AddedCamera {
-  public:
-    AddedCamera(Scene& scene, NodeTree& tree, const ViewWord& view)
-        : scene_(scene),
-          tree_(tree),
-          options_(scene.options.view),
-          view_(view),
-          frame_(up_axis_frame(scene.description->up_axis)),
-          vertices_(scene) {}
-
-    bool choose_subject(Diagnostics& diagnostics);
-    void add(Diagnostics& diagnostics);
-
-  private:
-    bool parallel() const { return view_.parallel && options_.yfov == 0 && !options_.from; }
-    bool turns() const { return options_.turn_seconds > 0; }
-    double half_height() const;  // at distance 1
-    void find_path();
-    dvec3 origin(size_t time) const;
-    Stand stand() const;
-    std::span<const dvec3> subject_now(bool still);
-    Stand frame(dvec3 back, bool core_only);
-    Stand frame(Diagnostics& diagnostics);
-    double covered(const Stand& stand);
-    uint32_t append(std::initializer_list<double> numbers);
-    ValueSlot slot(double number) { return {append({number}), 1}; }
-    NodeDefinition node(const Stand& stand);
-    CameraDefinition camera(const Stand& stand);
-    void animate(uint32_t node);
-
-    Scene& scene_;
-    NodeTree& tree_;
-    const ViewOptions& options_;
-    const ViewWord& view_;
-    ViewAxes frame_;
-    ShownVertices vertices_;
-    uint32_t at_node_ = kNone;
-    std::vector<uint32_t> subject_;  // shapes
-    std::vector<dvec3> points_;
-    std::vector<double> times_;
-    std::vector<dvec3> path_;  // the subject's centre at these times; empty: not asked for
-    dvec3 base_{0.0};          // of the origin at the first time
-    std::vector<Motion> motions_;
-};
+}  // namespace
 
 // All shapes, or those at and below the node that is looked at.
 bool AddedCamera::choose_subject(Diagnostics& diagnostics) {
@@ -100,13 +35,6 @@ bool AddedCamera::choose_subject(Diagnostics& diagnostics) {
         if (n == at_node_) subject_.push_back(h);
     }
     return true;
-}
-
-double AddedCamera::half_height() const {
-    double yfov = options_.yfov > 0 ? options_.yfov : kYfov;
-    double half = std::tan(0.5 * radians(yfov));
-    // A picture may be so wide that its other angle would come near 180 degrees.
-    return std::min(half, std::tan(0.5 * radians(kMostYfov)) / wanted_aspect(scene_.options));
 }
 
 // The subject's centre over the range; where it has no vertices (a joint) the node's place.
@@ -151,114 +79,6 @@ Stand AddedCamera::stand() const {
     result.eye = to_eye;
     result.reach = scene_.size;
     return result;
-}
-
-// Vertices far from all others: left out where they make a speck of the rest.
-struct Core {
-    dvec3 middle{0.0};
-    double reach = std::numeric_limits<double>::infinity();
-};
-Core core_of(std::span<const dvec3> points) {
-    constexpr size_t kMost = 20'000;
-    size_t step = points.size() / kMost + 1;
-    std::vector<double> sorted;
-    auto quantile = [&](double share, auto&& number) {
-        sorted.clear();
-        for (size_t i = 0; i < points.size(); i += step) sorted.push_back(number(points[i]));
-        auto at = sorted.begin() + ptrdiff_t(share * double(sorted.size() - 1));
-        std::nth_element(sorted.begin(), at, sorted.end());
-        return *at;
-    };
-    Core core;
-    if (points.empty()) return core;
-    for (int k = 0; k < 3; ++k) core.middle[k] = quantile(0.5, [&](dvec3 p) { return p[k]; });
-    core.reach =
-        kCoreReach * quantile(kCoreShare, [&](dvec3 p) { return glm::length(p - core.middle); });
-    return core;
-}
-
-// Vertices as the shapes stand; `still`: also those of shapes that never move.
-std::span<const dvec3> AddedCamera::subject_now(bool still) {
-    points_.clear();
-    for (uint32_t h : subject_) {
-        if (!still && scene_.shapes[h].kind == raytrace::GeometryKind::Static) continue;
-        std::span<const dvec3> of_shape = vertices_.of(h);
-        points_.insert(points_.end(), of_shape.begin(), of_shape.end());
-    }
-    return points_;
-}
-
-// From a direction, as near as what is framed allows.
-Stand AddedCamera::frame(dvec3 back, bool core_only) {
-    Stand result;
-    result.axes = axes_towards(back, frame_);
-    Framing framing(result.axes, half_height() * wanted_aspect(scene_.options), half_height());
-    if (turns()) framing.turn_about(frame_.up);
-    if (options_.at) framing.keep_centre();
-    for (size_t t = 0; t < times_.size(); ++t) {
-        if (times_.size() > 1) pose_at(scene_, times_[t]);
-        std::span<const dvec3> points = subject_now(t == 0 || options_.follow || core_only);
-        Core core = core_only ? core_of(points) : Core();
-        for (const dvec3& p : points) {
-            if (glm::length(p - core.middle) > core.reach) continue;
-            framing.add(p - origin(t));
-            result.reach = std::max(result.reach, glm::length(p - origin(t)));
-        }
-    }
-    if (framing.empty()) {  // a joint: the neighbourhood of its place
-        result.reach = 0.1 * scene_.size;
-        for (double side : {-result.reach, result.reach})
-            for (const dvec3& axis : {frame_.right, frame_.up, frame_.back})
-                framing.add(side * axis);
-    }
-    if (parallel()) {
-        Framing::Parallel eye = framing.parallel_eye();
-        result.eye = eye.eye;
-        result.half_height = eye.half_height;
-    } else {
-        result.eye = framing.perspective_eye();
-    }
-    return result;
-}
-
-// The largest share of the picture that the scene takes at one of the times, as far as kLittle.
-double AddedCamera::covered(const Stand& stand) {
-    raytrace::CameraOptics optics;
-    optics.orthographic = stand.half_height > 0;
-    optics.y = optics.orthographic ? stand.half_height : 2 * std::atan(half_height());
-    constexpr int kHeight = 1024;
-    int width = std::max(1, int(std::lround(kHeight * wanted_aspect(scene_.options))));
-    double most = 0;
-    for (size_t t = 0; t < times_.size() && most < kLittle; ++t) {
-        if (times_.size() > 1) pose_at(scene_, times_[t]);
-        dmat4 matrix(dvec4(stand.axes.right, 0), dvec4(stand.axes.up, 0), dvec4(stand.axes.back, 0),
-                     dvec4(origin(t) + stand.eye, 1));
-        raytrace::Camera camera;
-        raytrace::make_camera(optics, matrix, width, kHeight, scene_.origin, scene_.size, camera);
-        most = std::max(most, covered_share(scene_, camera, kLittle));
-    }
-    return most;
-}
-
-// In the view's direction. The automatic view looks for another one where it shows a speck: what is
-// flat may be seen edge-on, and what is stray may be far.
-Stand AddedCamera::frame(Diagnostics& diagnostics) {
-    dvec3 sideways = view_.right * frame_.right,
-          rest = view_.up * frame_.up + view_.back * frame_.back;
-    Stand best = frame(sideways + rest, false);
-    if (view_.word != "auto" || at_node_ != kNone || options_.at) return best;
-    double most = covered(best);
-    for (auto [side, core_only] : {std::pair(-1, false), {1, true}, {-1, true}}) {
-        if (most >= kLittle) break;
-        Stand other = frame(double(side) * sideways + rest, core_only);
-        double share = covered(other);
-        // Nothing is left out for less than a picture.
-        if (share <= most || (core_only && share < kLittle)) continue;
-        if (core_only) diagnostics.report(Code::SCENE_STRAY, Location{});
-        best = other;
-        most = share;
-    }
-    return best;
 }
 
 uint32_t AddedCamera::append(std::initializer_list<double> numbers) {
@@ -362,8 +182,6 @@ void AddedCamera::add(Diagnostics& diagnostics) {
     scene_.added.push_back(kName);
     pose_at(scene_, scene_.options.start_time);
 }
-
-}  // namespace
 
 double wanted_aspect(const SceneOptions& options) {
     return options.height > 0 ? double(options.width) / options.height : 16.0 / 9.0;

@@ -403,6 +403,94 @@ TEST(Cameras, AutoLeavesStrayVerticesOut) {
     EXPECT_EQ(alone->count("SCENE_STRAY"), 0);
 }
 
+// Two cubes side by side; the second one stands at these heights at 0 .. n seconds and between.
+struct Hiding {
+    SceneText scene = bare_scene();
+    SceneOptions options;
+
+    explicit Hiding(const std::vector<double>& heights) {
+        scene.nodes.clear();
+        scene.cube("box").place("box", "l", "", "stays");
+        scene.place("box", "l", "<translate sid=\"t\">3 0 0</translate>", "goes");
+        std::vector<double> times;
+        for (size_t k = 0; k < heights.size(); ++k) times.push_back(double(k));
+        if (heights.size() > 1) scene.animate("goes/t.Y", times, heights);
+        options.end_time = times.back();
+    }
+};
+
+TEST(Cameras, AutoStaysWithWhatIsThereAtTheStart) {
+    for (double far : {30.0, -1000.0, 1e5, -1e9}) {
+        Hiding hiding({0, 0, far, far});
+        Rendering r(hiding.scene.text(), hiding.options);
+        ASSERT_TRUE(r.scene) << r.findings();
+        // Both are in the picture at the start, and the one that stays is no speck at any time.
+        Box start(r.frame(64, 36, 0).film);
+        EXPECT_GT(start.right - start.left, 0.8) << far;
+        EXPECT_LT(std::max(start.right, start.top), 1 - start.pixel) << far;
+        EXPECT_GT(std::min(start.left, start.bottom), start.pixel - 1) << far;
+        EXPECT_GT(Box(r.frame(64, 36, 3).film).pixels, 64 * 36 * 3 / 100) << far;
+        ASSERT_EQ(r.count("SCENE_FAR_PART"), 1) << r.findings();
+        const Finding& finding = *r.find("SCENE_FAR_PART");
+        EXPECT_EQ(finding.severity, Severity::Warning);
+        EXPECT_NE(finding.message.find("'goes'"), std::string::npos) << finding.message;
+        EXPECT_NE(finding.help.find("--hide 'goes'"), std::string::npos) << finding.help;
+    }
+}
+
+TEST(Cameras, AutoShowsWhatIsFarAwayAtTheStartAlone) {
+    Hiding hiding({-1000, -1000, 0, 0, 0, 0});
+    Rendering r(hiding.scene.text(), hiding.options);
+    for (double time : {0.0, 5.0})
+        EXPECT_GT(Box(r.frame(64, 36, time).film).pixels, 64 * 36 * 3 / 100) << time;
+    EXPECT_EQ(r.count("SCENE_FAR_PART"), 1) << r.findings();
+}
+
+TEST(Cameras, AutoFramesAllWhereThatShowsSomething) {
+    Hiding hiding({0, 0, 8, 8});
+    Rendering r(hiding.scene.text(), hiding.options);
+    EXPECT_GT(Box(r.frame(64, 36, 3).film).top, 0.5);
+    EXPECT_EQ(r.count("SCENE_FAR_PART") + r.count("SCENE_SPECKS"), 0) << r.findings();
+}
+
+TEST(Cameras, AutoShowsHalfOfWhatCannotBeSeenTogether) {
+    SceneText scene = bare_scene();
+    scene.nodes.clear();
+    scene.cube("box").place("box", "l", "", "near");
+    scene.place("box", "l", "<translate>0 1e6 0</translate>", "far");
+    Rendering r(scene.text());
+    EXPECT_GT(Box(r.frame(64, 36).film).pixels, 64 * 36 * 3 / 100) << r.findings();
+    EXPECT_EQ(r.count("SCENE_FAR_PART"), 1) << r.findings();
+    // Small things all over the picture are no reason to leave half of them out.
+    SceneText many = bare_scene();
+    many.nodes.clear();
+    many.cube("box");
+    for (int k = 0; k < 100; ++k)
+        many.place("box", "l",
+                   "<translate>" + std::to_string(130 * (k % 10)) + " " +
+                       std::to_string(130 * (k / 10)) + " 0</translate><scale>3 3 3</scale>",
+                   "n" + std::to_string(k));
+    Rendering all(many.text());
+    EXPECT_EQ(all.count("SCENE_FAR_PART") + all.count("SCENE_SPECKS"), 0) << all.findings();
+}
+
+TEST(Cameras, AnEmptyPictureOverTheWholeRangeNamesTheFarThing) {
+    SceneOptions options;
+    options.end_time = 1;
+    SceneText scene = bare_scene("Y", "<translate sid=\"t\">0 0 0</translate>");
+    scene.animate("ball-node/t.X", {0, 1}, {0, 1e4});
+    Rendering r(scene.text(), options);
+    ASSERT_EQ(r.count("SCENE_SPECKS"), 1) << r.findings();
+    const Finding& finding = *r.find("SCENE_SPECKS");
+    EXPECT_NE(finding.message.find("'ball-node'"), std::string::npos) << finding.message;
+    EXPECT_NE(finding.message.find("1e+04"), std::string::npos) << finding.message;
+    for (const char* camera : {"front", "iso"}) {  // asked for by name
+        options.camera = camera;
+        Rendering named(scene.text(), options);
+        EXPECT_EQ(named.count("SCENE_SPECKS"), 0) << camera;
+    }
+}
+
 TEST(Cameras, ASceneWithNothingToDrawIsAnError) {
     SceneText none, no_triangle, flat, zero;
     no_triangle.square("s").look("l", kWhite);
