@@ -9,6 +9,7 @@
 #include <span>
 
 #include "collada/document/findings.h"
+#include "collada/document/kml_p.h"
 #include "collada/text/encoding_p.h"
 #include "collada/text/entities_p.h"
 #include "collada/text/numbers_p.h"
@@ -111,6 +112,32 @@ const std::string* first_scene(const Archive& archive) {
     return best;
 }
 
+// Of the models of a .kml those that are in the archive; the first one is the root.
+struct Models {
+    Root root;
+    std::vector<PlacedModel> placed;
+};
+Models models_of(const Archive& archive, const std::string& index, Diagnostics& diag) {
+    const std::string& folder = archive.folder->path();
+    std::vector<KmlModel> listed = read_kml(folder + "/" + index);
+    auto origin = std::ranges::find_if(listed, &KmlModel::has_place);
+    Models models;
+    for (const KmlModel& model : listed) {
+        Root root = linked(archive, index, model.href);
+        for (const std::string& fault : model.faults)
+            diag.report(Code::ARCHIVE_PLACE, Location{}, index, fault, model.href);
+        if (root.path.empty()) {
+            diag.report(Code::ARCHIVE_MODEL, Location{}, index, model.href);
+            continue;
+        }
+        dmat4 place = kml_place(model, origin == listed.end() ? model : *origin);
+        models.placed.push_back({model.name, folder + "/" + root.path, root.scene_id, place});
+        if (models.placed.size() == 1) models.root = root;
+    }
+    if (models.placed.size() == 1 && models.placed[0].place == dmat4(1.0)) models.placed.clear();
+    return models;
+}
+
 // True when one of these members is an archive itself, with the finding.
 bool report_nested(const std::string& path, const Archive& archive,
                    std::span<const std::string> members, Diagnostics& diag) {
@@ -129,12 +156,16 @@ std::optional<SceneFile> scene_of(const std::string& path, Archive archive, Diag
         if (ends_like(member, "manifest.xml") && (index.empty() || member.size() < index.size()))
             index = member;
     if (!index.empty()) link = first_text(folder + "/" + index, "dae_root", "");
-    for (const std::string& member : archive.members)
-        if (link.empty() && ends_like(member, ".kml")) {
-            index = member;
-            link = first_text(folder + "/" + member, "href", ".dae");
-        }
-    Root root = link.empty() ? Root{} : linked(archive, index, link);
+    Models models;
+    for (const std::string& member : archive.members) {
+        if (!link.empty() || !ends_like(member, ".kml")) continue;
+        index = member;
+        models = models_of(archive, member, diag);
+        link = models.root.path.empty() ? first_text(folder + "/" + member, "href", ".dae")
+                                        : models.root.path;
+    }
+    Root root = models.root;
+    if (root.path.empty() && !link.empty()) root = linked(archive, index, link);
     if (root.path.empty()) {
         const std::string* first = first_scene(archive);
         if (!first) {
@@ -149,14 +180,15 @@ std::optional<SceneFile> scene_of(const std::string& path, Archive archive, Diag
         root = {*first, {}};
     }
     if (report_nested(path, archive, {&root.path, 1}, diag)) return std::nullopt;
-    return SceneFile{folder + "/" + root.path, folder, root.scene_id, std::move(archive.folder)};
+    return SceneFile{folder + "/" + root.path, folder, root.scene_id, std::move(models.placed),
+                     std::move(archive.folder)};
 }
 
 }  // namespace
 
 std::optional<SceneFile> open_scene(const std::string& path, Diagnostics& diag,
                                     const ArchiveLimits& limits) {
-    if (!is_archive(path)) return SceneFile{path, {}, {}, {}};
+    if (!is_archive(path)) return SceneFile{path, {}, {}, {}, {}};
     std::optional<Archive> archive = unpack_archive(path, limits, diag);
     if (!archive) return std::nullopt;
     return scene_of(path, std::move(*archive), diag);

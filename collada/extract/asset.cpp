@@ -138,6 +138,10 @@ uint32_t AssetFrames::of_world() {
     return number(scene_.documents[0].asset.meter, scene_.documents[0].asset.up_axis);
 }
 
+uint32_t AssetFrames::of_earth() {
+    return number(1.0, UpAxis::Z);
+}
+
 uint32_t AssetFrames::of(Link link) {
     const Asset& whole = scene_.documents[link.doc].asset;
     const OwnFrames& own = own_frames(link.doc);

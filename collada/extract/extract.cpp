@@ -9,26 +9,25 @@ namespace kinora::collada {
 
 namespace {
 
-// The visual scene of <scene>; else the first of the document; else null.
-Link find_visual_scene(Extraction& x) {
-    const Document& document = x.document(0);
-    const std::string& wanted = x.options.scene_id;
+// The visual scene of that id, or of <scene>; else the first of the document; else null.
+Link find_visual_scene(Extraction& x, uint32_t doc, const std::string& wanted) {
+    const Document& document = x.document(doc);
     const Element* named = wanted.empty() ? nullptr : find_kind(document, wanted, {"visual_scene"});
-    if (named) return {0, named};
+    if (named) return {doc, named};
     const Element* scene = document.root().child("scene");
     const Element* instance = scene ? scene->child("instance_visual_scene") : nullptr;
     if (instance) {
         if (const Element* second = instance->next_named("instance_visual_scene"))
-            x.diag.report(Code::SCENE_MULTI, x.where({0, second}));
-        Link link = resolve(x, {0, instance}, "url", {"visual_scene"});
+            x.diag.report(Code::SCENE_MULTI, x.where({doc, second}));
+        Link link = resolve(x, {doc, instance}, "url", {"visual_scene"});
         if (link) return link;
     }
     for (const Element& library : document.root().children()) {
         if (library.name != "library_visual_scenes") continue;
         if (const Element* first = library.child("visual_scene")) {
             if (!instance)  // else what it names was told to be missing
-                x.diag.report(Code::SCENE_MISSING, x.where({0, scene ? scene : first}));
-            return {0, first};
+                x.diag.report(Code::SCENE_MISSING, x.where({doc, scene ? scene : first}));
+            return {doc, first};
         }
     }
     return {};
@@ -90,14 +89,64 @@ void read_evaluated_camera(Extraction& x, Link scene) {
     }
 }
 
+std::vector<uint32_t> roots_of(Extraction& x, Link scene) {
+    std::vector<uint32_t> roots;
+    for (const Element& child : scene.element->children()) {
+        if (child.name != "node") continue;
+        uint32_t root = node_index(x, {scene.doc, &child});
+        if (root != kNone) roots.push_back(root);
+    }
+    return roots;
+}
+
+// A node that holds what a model's visual scene shows, at the model's place in the world.
+void place_model(Extraction& x, const PlacedModel& model, Link scene) {
+    Node node;
+    node.name = model.name;
+    node.document = scene.doc;
+    node.where = x.where(scene);
+    uint32_t world = x.frames.of_world(), earth = x.frames.of_earth();
+    auto conversion = [&](uint32_t from, uint32_t to) {
+        uint32_t index = x.frames.conversion(from, to);
+        return index == kNone ? dmat4(1.0) : x.scene.conversions[index];
+    };
+    dmat4 place = conversion(world, earth) * model.place * conversion(earth, world);
+    Transform& transform = node.transforms.emplace_back();
+    transform.kind = TransformKind::Matrix;
+    transform.slot.count = 16;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) transform.slot.values[size_t(c * 4 + r)] = place[c][r];
+    for (const Element& child : scene.element->children()) {
+        if (child.name != "node") continue;
+        Link root{scene.doc, &child};
+        uint32_t index = node_index(x, root);
+        if (index == kNone) continue;
+        node.instances.push_back(
+            {index, x.frames.conversion(world, x.frames.of(root)), x.where(root)});
+    }
+    if (!x.budget.reserve(sizeof(Node) + kBookBytes, node.where)) return;
+    x.scene.roots.push_back(append(x.scene.nodes, std::move(node)));
+    x.nodes.add_filled();
+}
+
+void place_models(Extraction& x, Link first) {
+    for (const PlacedModel& model : x.options.models) {
+        Location where = x.where(first);
+        std::string_view file =
+            std::string_view(model.document).substr(model.document.find_last_of('/') + 1);
+        uint32_t doc = x.documents.at_path(model.document, file, where);
+        Link scene = doc == kNone ? Link{} : find_visual_scene(x, doc, model.scene_id);
+        if (scene) place_model(x, model, scene);
+    }
+}
+
 void read_visual_scene(Extraction& x, Link scene) {
     x.scene.scene_id = scene.element->value("id");
     x.scene.scene_name = scene.element->value("name");
-    for (const Element& child : scene.element->children())
-        if (child.name == "node") {
-            uint32_t root = node_index(x, {scene.doc, &child});
-            if (root != kNone) x.scene.roots.push_back(root);
-        }
+    if (x.options.models.empty())
+        x.scene.roots = roots_of(x, scene);
+    else
+        place_models(x, scene);
     // The first root is read first, so that what it shows gets the first numbers.
     x.nodes.reverse();
     read_pending_nodes(x);
@@ -115,7 +164,7 @@ bool extract_into(Extraction& x, const Document& document) {
     asset.up_axis = x.options.up_axis.value_or(asset.up_axis);
     x.scene.asset = asset;
     reserve_lists(x, document);
-    Link scene = find_visual_scene(x);
+    Link scene = find_visual_scene(x, 0, x.options.scene_id);
     if (!scene && !x.options.everything) {
         if (!raise_findings(x.diag, "XML_"))  // what is not well-formed may have cut it off
             x.diag.report(Code::SCENE_NONE, document.location(document.root()));

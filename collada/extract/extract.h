@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collada/document/document.h"
+#include "collada/document/placed_model.h"
 #include "collada/scene/scene.h"
 
 namespace kinora::collada {
@@ -17,6 +18,9 @@ struct ExtractOptions {
     std::vector<std::string> allow_external;  // further trees, allowed by the user
     bool confine = false;                     // images too; else they are read wherever they lie
     std::string scene_id;  // of the visual scene instead of <scene>'s; ignored if there is none
+    // Shown instead of the visual scene: at their places about the first, whose document is the
+    // root.
+    std::vector<PlacedModel> models;
     std::optional<double> meter;    // instead of the root document's own
     std::optional<UpAxis> up_axis;  // likewise
     uint32_t max_documents = 256;

@@ -78,6 +78,7 @@ class NodeQueue {
     }
     bool is_filled(uint32_t index) const { return filled_[index]; }
     void set_filled(uint32_t index) { filled_[index] = true; }
+    void add_filled() { filled_.push_back(true); }  // one that no element describes
 
   private:
     std::vector<std::pair<uint32_t, Link>> waiting_;
@@ -93,6 +94,7 @@ class AssetFrames {
     // A number for the unit and up axis that hold inside an element; equal ones are one.
     uint32_t of(Link element);
     uint32_t of_world();  // the root document's
+    uint32_t of_earth();  // of a .kml's places: metres, z up
     // Index into SceneData::conversions for things of frame `to` used in `from`; kNone if the same.
     uint32_t conversion(uint32_t from, uint32_t to);
 

@@ -52,7 +52,12 @@ uint32_t LinkedDocuments::linked(uint32_t from, std::string_view file, Location 
     std::string written = path_of_uri(*documents_[from], file);
     auto linked = by_link_.find(written);
     if (linked != by_link_.end()) return linked->second;
-    std::string path = path_of_link(from, file, where);
+    uint32_t doc = at_path(path_of_link(from, file, where), file, where);
+    if (doc != kNone) by_link_.emplace(written, doc);
+    return doc;
+}
+
+uint32_t LinkedDocuments::at_path(const std::string& path, std::string_view file, Location where) {
     if (!allowed_paths().contains(path)) {
         diag_.report(Code::LINK_OUTSIDE, where, file);
         return kNone;
@@ -60,10 +65,7 @@ uint32_t LinkedDocuments::linked(uint32_t from, std::string_view file, Location 
     std::string real = real_path(path);
     auto known = by_path_.find(real);
     if (known != by_path_.end()) {
-        if (known->second == kNone)
-            report_unread(path, file, where);
-        else
-            by_link_.emplace(written, known->second);
+        if (known->second == kNone) report_unread(path, file, where);
         return known->second;
     }
     if (documents_.size() >= options_.max_documents) {
@@ -81,7 +83,7 @@ uint32_t LinkedDocuments::linked(uint32_t from, std::string_view file, Location 
         return kNone;
     }
     owned_.push_back(std::make_unique<Document>(std::move(*document)));
-    return by_link_[written] = add(*owned_.back(), real);
+    return add(*owned_.back(), real);
 }
 
 uint32_t LinkedDocuments::find(uint32_t from, std::string_view file) {

@@ -33,6 +33,9 @@ class LinkedDocuments {
     // new. kNone and a finding if there is none.
     uint32_t linked(uint32_t from, std::string_view file, Location where);
 
+    // The same of a path of the file system, which findings call `file`.
+    uint32_t at_path(const std::string& path, std::string_view file, Location where);
+
     // The same if it was read already; kNone if not.
     uint32_t find(uint32_t from, std::string_view file);
 

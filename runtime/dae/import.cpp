@@ -22,6 +22,7 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     collada::ExtractOptions extract_options;
     extract_options.folder = file->folder;
     extract_options.scene_id = file->scene_id;
+    extract_options.models = file->models;
     extract_options.allow_external = options.allow_external;
     extract_options.confine = options.confine;
     extract_options.meter = options.meter;

@@ -96,6 +96,174 @@ TEST(Archive, ShowsTheModelThatItsKmlNames) {
     EXPECT_EQ(first_node(*file, diag), "right");
 }
 
+std::string kml_model(const std::string& parts, const std::string& href) {
+    return "<Placemark><name>a place</name><Model>" + parts + "<Link><href>" + href +
+           "</href></Link></Model></Placemark>";
+}
+
+std::string location(const std::string& longitude, const std::string& latitude,
+                     const std::string& altitude = "0") {
+    return "<Location><longitude>" + longitude + "</longitude><latitude>" + latitude +
+           "</latitude><altitude>" + altitude + "</altitude></Location>";
+}
+
+// What the models of a .kml become; both documents are there.
+std::vector<PlacedModel> placed(const std::string& models, Diagnostics& diag) {
+    ZipFile zip("placed.kmz");
+    zip.add("doc.kml", "<kml><Folder>" + models + "</Folder></kml>");
+    zip.add("a.dae", with_scene("", "<node id=\"a\"/>"));
+    zip.add("b.dae", with_scene("", "<node id=\"b\"/>"));
+    auto file = open_scene(zip.close(), diag);
+    EXPECT_TRUE(file) << messages(diag);
+    return file ? file->models : std::vector<PlacedModel>();
+}
+
+dvec3 seen(const dmat4& place, dvec3 p) {
+    return dvec3(place * dvec4(p, 1));
+}
+
+void expect_near(dvec3 a, dvec3 b, double tolerance, const std::string& what) {
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << what << " " << k;
+}
+
+TEST(Kml, OneModelAsItStandsIsPlacedNowhere) {
+    Diagnostics diag;
+    EXPECT_TRUE(placed(kml_model(location("7", "51", "300"), "a.dae"), diag).empty());
+    EXPECT_TRUE(placed(kml_model("<Orientation><heading>0</heading></Orientation><Scale><x>1</x>"
+                                 "<y>1</y><z>1</z></Scale>",
+                                 "a.dae"),
+                       diag)
+                    .empty());
+    EXPECT_EQ(placed(kml_model("<Scale><x>2</x></Scale>", "a.dae"), diag).size(), 1u);
+    EXPECT_TRUE(diag.findings().empty()) << messages(diag);
+}
+
+// WGS 84: a = 6378137, f = 1 / 298.257223563, e^2 = f (2 - f). At the equator a degree of longitude
+// is a circle of radius a, one of latitude a circle of radius a (1 - e^2).
+TEST(Kml, ModelsStandAsFarApartAsOnTheEarth) {
+    double f = 1 / 298.257223563, degree = 3.14159265358979 / 180 * 6378137.0;
+    double north = degree * (1 - f * (2 - f));
+    Diagnostics diag;
+    std::string absolute = "<altitudeMode>absolute</altitudeMode>";
+    std::vector<PlacedModel> models =
+        placed(kml_model(absolute + location("10", "0", "20"), "a.dae") +
+                   kml_model(absolute + location("10.001", "0", "50"), "b.dae") +
+                   kml_model(absolute + location("10", "0.001", "20"), "a.dae") +
+                   kml_model(location("9.999", "0", "700"), "b.dae") + kml_model("", "a.dae"),
+               diag);
+    ASSERT_EQ(models.size(), 5u) << messages(diag);
+    EXPECT_EQ(models[0].name, "a place");
+    EXPECT_TRUE(models[0].document.ends_with("/a.dae"));
+    EXPECT_TRUE(models[1].document.ends_with("/b.dae"));
+    EXPECT_EQ(models[0].place, dmat4(1.0));
+    EXPECT_EQ(models[4].place, dmat4(1.0)) << "without a place it stands at the first one's";
+    expect_near(seen(models[1].place, dvec3(0)), {0.001 * degree, 0, 30}, 2e-3, "east, up");
+    expect_near(seen(models[2].place, dvec3(0)), {0, 0.001 * north, 0}, 2e-3, "north");
+    // On the ground (clampToGround) whatever its altitude says; the first one stands at 20.
+    expect_near(seen(models[3].place, dvec3(0)), {-0.001 * degree, 0, -20}, 2e-3, "west");
+    // The earth's curve: a quarter of the way round up is east.
+    models = placed(
+        kml_model(location("0", "0"), "a.dae") + kml_model(location("90", "0"), "b.dae"), diag);
+    ASSERT_EQ(models.size(), 2u);
+    expect_near(seen(models[1].place, dvec3(0)), {6378137.0, 0, -6378137.0}, 1e-3, "quarter");
+    expect_near(dvec3(models[1].place[2]), {1, 0, 0}, 1e-12, "up");
+    expect_near(dvec3(models[1].place[1]), {0, 1, 0}, 1e-12, "north");
+    EXPECT_TRUE(diag.findings().empty()) << messages(diag);
+}
+
+// KML reference, <Orientation>: clockwise about z (heading), x (tilt) and y (roll); roll first.
+TEST(Kml, ModelsAreTurnedAndScaled) {
+    auto place_of = [](const std::string& parts) {
+        Diagnostics diag;
+        std::vector<PlacedModel> models = placed(kml_model(parts, "a.dae"), diag);
+        EXPECT_EQ(models.size(), 1u) << messages(diag);
+        return models.empty() ? dmat4(1.0) : models[0].place;
+    };
+    auto turned = [&](const char* heading, const char* tilt, const char* roll, dvec3 p) {
+        return seen(place_of(std::string("<Orientation><heading>") + heading + "</heading><tilt>" +
+                             tilt + "</tilt><roll>" + roll + "</roll></Orientation>"),
+                    p);
+    };
+    expect_near(turned("90", "0", "0", {0, 1, 0}), {1, 0, 0}, 1e-12, "north becomes east");
+    expect_near(turned("0", "90", "0", {0, 0, 1}), {0, 1, 0}, 1e-12, "up becomes north");
+    expect_near(turned("0", "0", "90", {1, 0, 0}), {0, 0, 1}, 1e-12, "east becomes up");
+    expect_near(turned("90", "90", "0", {0, 0, 1}), {1, 0, 0}, 1e-12, "tilt, then heading");
+    expect_near(turned("0", "90", "90", {1, 0, 0}), {0, 1, 0}, 1e-12, "roll, then tilt");
+    dmat4 scaled = place_of(
+        "<Orientation><heading>90</heading></Orientation><Scale><x>2</x><y>3</y>"
+        "<z>0.5</z></Scale>");
+    expect_near(seen(scaled, {1, 1, 1}), {3, -2, 0.5}, 1e-12, "scaled along its own axes");
+}
+
+TEST(Kml, WhatSaysNothingIsLeftOutWithItsName) {
+    Diagnostics diag;
+    std::vector<PlacedModel> models =
+        placed(kml_model(location("east", "95"), "a.dae") +
+                   kml_model("<Scale><x>0</x><y>nan</y><z>4</z></Scale>", "b.dae") +
+                   kml_model("", "models/gone.dae") + kml_model("", "picture.png"),
+               diag);
+    ASSERT_EQ(models.size(), 2u) << messages(diag);
+    EXPECT_EQ(seen(models[1].place, {1, 1, 1}), dvec3(1, 1, 4));
+    EXPECT_EQ(count(diag, "ARCHIVE_PLACE"), 4u) << messages(diag);
+    EXPECT_EQ(count(diag, "ARCHIVE_MODEL"), 1u) << messages(diag);
+    EXPECT_NE(messages(diag).find("models/gone.dae"), std::string::npos);
+    EXPECT_NE(messages(diag).find("<latitude> is '95'"), std::string::npos) << messages(diag);
+}
+
+// Metres with z up are the places of a .kml; the world is the first document's: centimetres, y up.
+TEST(Kml, ModelsOfOtherUnitsAndAxesMeetInTheWorldOfTheFirst) {
+    auto asset = [](const char* meter, const char* up) {
+        return std::string(
+                   "<asset><created>2026-01-01T00:00:00Z</created><modified>"
+                   "2026-01-01T00:00:00Z</modified><unit meter=\"") +
+               meter + "\"/><up_axis>" + up + "</up_axis></asset>";
+    };
+    ZipFile zip("axes.kmz");
+    zip.add("doc.kml", "<kml>" + kml_model(location("10", "0"), "a.dae") +
+                           kml_model("<altitudeMode>relativeToGround</altitudeMode>" +
+                                         location("10", "0", "7") + "<Scale><z>2</z></Scale>",
+                                     "b.dae") +
+                           kml_model("<altitudeMode>relativeToGround</altitudeMode>" +
+                                         location("10", "0", "9"),
+                                     "a.dae") +
+                           "</kml>");
+    zip.add("a.dae", with_scene(asset("0.01", "Y_UP"), "<node id=\"a\"/>"));
+    zip.add("b.dae", with_scene(asset("1", "Z_UP"), "<node id=\"b\"/><node id=\"c\"/>"));
+    Diagnostics diag;
+    auto file = open_scene(zip.close(), diag);
+    ASSERT_TRUE(file) << messages(diag);
+    auto document = read_document(file->document, diag);
+    ASSERT_TRUE(document);
+    ExtractOptions options;
+    options.folder = file->folder;
+    options.models = file->models;
+    for (bool everything : {false, true}) {
+        options.everything = everything;
+        auto scene = extract(*document, diag, options);
+        ASSERT_TRUE(scene) << messages(diag);
+        ASSERT_EQ(scene->roots.size(), 3u);
+        auto world = [&](size_t root, size_t instance, dvec3 p) {
+            const Node& node = scene->nodes[scene->roots[root]];
+            const Slot& slot = node.transforms.at(0).slot;
+            dmat4 place;
+            for (int c = 0; c < 4; ++c)
+                for (int r = 0; r < 4; ++r) place[c][r] = slot.values[size_t(c * 4 + r)];
+            uint32_t index = node.instances.at(instance).conversion;
+            dmat4 change = index == kNone ? dmat4(1.0) : scene->conversions[index];
+            return seen(place, dvec3(change * dvec4(p, 1)));
+        };
+        EXPECT_EQ(scene->nodes[scene->nodes[scene->roots[1]].instances.at(1).node].id, "c");
+        EXPECT_EQ(scene->nodes[scene->roots[2]].instances.at(0).node,
+                  scene->nodes[scene->roots[0]].instances.at(0).node)
+            << "one document, read once";
+        expect_near(world(0, 0, {1, 2, 3}), {1, 2, 3}, 1e-9, "the first stands as it is");
+        // One metre up and three north in b: twice that height above 7 m; north is -z.
+        expect_near(world(1, 0, {0, 3, 1}), {0, 900, -300}, 1e-6, "the second");
+        expect_near(world(2, 0, {0, 50, 0}), {0, 950, 0}, 1e-6, "the first document again");
+    }
+    EXPECT_TRUE(diag.findings().empty()) << messages(diag);
+}
+
 TEST(Archive, WithoutAWordShowsItsTopmostDaeAndSaysSo) {
     ZipFile zip("plain.zae");
     zip.add("deep/a.dae", with_scene("", "<node id=\"deep\"/>"));

@@ -73,6 +73,7 @@ void validate_file(Reading& r, const std::string& name, const std::string& code)
     if (!file) return;
     ValidateOptions options;
     options.extract.folder = file->folder;
+    options.extract.models = file->models;
     r.document = read_document(file->document, r.diag);
     if (r.document) r.scene = validate(*r.document, r.diag, options);
 }
@@ -88,7 +89,8 @@ std::set<Mark> found_marks(const Reading& r) {
 // Files that cannot hold a mark: the finding may be anywhere.
 const std::set<std::string> kUnmarked = {"XML_EMPTY",        "XML_ENCODING",  "XML_RECODED",
                                          "ARCHIVE_OPEN",     "ARCHIVE_LIMIT", "ARCHIVE_MEMBER",
-                                         "ARCHIVE_NO_SCENE", "ARCHIVE_ROOT",  "ARCHIVE_NESTED"};
+                                         "ARCHIVE_NO_SCENE", "ARCHIVE_ROOT",  "ARCHIVE_NESTED",
+                                         "ARCHIVE_MODEL",    "ARCHIVE_PLACE"};
 
 class Rules : public testing::TestWithParam<RuleFile> {};
 

@@ -12,6 +12,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "collada/document/open_scene.h"
 #include "collada/document/write.h"
 #include "runtime/base/display_path.h"
 #include "runtime/base/file_extension.h"
@@ -62,6 +63,14 @@ int write_whole(const std::string& path, std::string_view bytes) {
     return error == ENOSPC || error == EDQUOT ? kExitRetry : kExitUnwritable;
 }
 
+// Whether a .kmz shows more than one document as it stands: then no document holds it all.
+bool places_models(const std::string& path) {
+    if (!collada::is_archive(path)) return false;
+    Diagnostics quiet;
+    std::optional<collada::SceneFile> file = collada::open_scene(path, quiet);
+    return file && !file->models.empty();
+}
+
 class Conversion {
   public:
     // What the reader makes of the scene matters less here than what becomes of it.
@@ -74,7 +83,7 @@ class Conversion {
         Stopwatch watch;
         if (options_.threads) set_thread_count(options_.threads);
         bool to_dae = has_extension(options_.output, {".dae"});
-        if (to_dae && !is_gltf(options_.input)) {
+        if (to_dae && !is_gltf(options_.input) && !places_models(options_.input)) {
             std::optional<std::string> text = convert_document(options_, diag_);
             if (int code = tell(text.has_value())) return code;
             return finish_document(*text, {}, watch);

@@ -90,6 +90,7 @@ void check(FileResult& result, std::optional<collada::Document> document,
         options.extract.folder = file.folder;
         options.check_foreign = check_foreign;
         options.extract.scene_id = file.scene_id;
+        options.extract.models = file.models;
         auto scene = collada::validate(*document, diagnostics, options);
         if (scene) {
             check_profile_rsl(*scene, shader_options(*document, file, settings), diagnostics);

@@ -54,6 +54,20 @@ class Archives(ProgramTest):
             self.assertEqual(self.picture(path), shown, path)
         return shown
 
+    def test_all_models_of_a_kmz_are_shown_and_converted(self):
+        """Two models beside each other, the second one twice as high: a document that holds both looks the same."""
+        first, second = (f'<node id="{id}"><translate>{x} 0 0</translate>{{}}{dae.shown()}</node>'
+                         for id, x in (("n", -.5), ("m", .5)))
+        whole = dae.document(first.format("") + second.format("<scale>1 2 1</scale>"))
+        link = "<Model>{}<Link><href>{}</href></Link></Model>"
+        archive = self.archive("two.kmz", {
+            "doc.kml": "<kml>" + link.format("", "a.dae") + link.format("<Scale><z>2</z></Scale>", "b.dae") + "</kml>",
+            "a.dae": dae.document(first.format("")),
+            "b.dae": dae.document(second.format(""), lights="", light_nodes="", cameras="", eye="")})
+        shown = self.everywhere(archive)
+        scene = self.write("whole.dae", whole)
+        self.assertEqual(self.picture(scene), shown)
+
     def test_names_in_code_are_found_in_an_archive(self):
         """From the document's folder, which need not be the top, and from the top."""
         wanted = self.everywhere(self.archive("deep.zae", {

@@ -30,6 +30,16 @@ write("ARCHIVE_NESTED.named.zae", {"manifest.xml": MANIFEST, "other.dae": SCENE,
 write("ARCHIVE_NESTED.ok.zae", WHOLE | {"textures.zip": (HERE / "ARCHIVE_ROOT.zae").read_bytes()})
 write("ARCHIVE_MEMBER.zae", WHOLE | {"../../outside.txt": "x"})
 write("ARCHIVE_LIMIT.zae", WHOLE | {"zeros": bytes(80 << 20)})
+def kml(*models):
+    return "<kml><Folder>" + "".join(f"<Placemark><Model>{m}</Model></Placemark>" for m in models) + "</Folder></kml>"
+
+
+LINK = "<Link><href>scene.dae</href></Link>"
+PLACE = "<Location><longitude>{}</longitude><latitude>2</latitude></Location>"
+for name, models in (("MODEL", (LINK, "<Link><href>gone.dae</href></Link>")),
+                     ("PLACE", (LINK, PLACE.format("east") + LINK))):
+    write(f"ARCHIVE_{name}.kmz", {"doc.kml": kml(*models), "scene.dae": SCENE})
+    write(f"ARCHIVE_{name}.ok.kmz", {"doc.kml": kml(LINK, PLACE.format("1") + LINK), "scene.dae": SCENE})
 for code in ("OPEN", "LIMIT", "MEMBER", "NO_SCENE", "ROOT"):
     write(f"ARCHIVE_{code}.ok.zae", WHOLE)
 (HERE / "ARCHIVE_OPEN.zae").write_bytes((HERE / "ARCHIVE_OPEN.ok.zae").read_bytes()[:200])
