@@ -7,6 +7,7 @@
 #include "collada/text/encoding_p.h"
 #include "collada/text/numbers_p.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/base/uri/package_uri.h"
 
 namespace kinora::collada {
 
@@ -71,6 +72,8 @@ std::string base_folder(const Document& document) {
 std::string path_of_uri(const Document& document, std::string_view uri) {
     std::string path = written_path(uri);
     if (path.empty()) return {};
+    if (std::string found = path_of_package_uri(path, document.directory()); !found.empty())
+        return found;
     auto normal = [](const std::string& text) {
         return std::filesystem::path(text).lexically_normal().string();
     };

@@ -9,7 +9,8 @@
 namespace kinora::collada {
 
 // The path a URI means for a document, not checked to exist: schemes, %xx and backslashes undone,
-// below xml:base where there is such a file.
+// below xml:base where there is such a file. package:// and model:// lead to packages that are
+// there.
 std::string path_of_uri(const Document& document, std::string_view uri);
 
 bool starts_with_drive(std::string_view path);  // "C:/"

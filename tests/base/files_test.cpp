@@ -5,12 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "runtime/base/allowed_paths.h"
 #include "runtime/base/picture_search.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/base/uri/package_uri.h"
 
 namespace kinora {
 namespace {
@@ -161,6 +163,86 @@ TEST_F(Files, ConfinedPicturesAreFoundInTheTreesOnly) {
     FoundPicture found = PictureSearch().find("a/textures/x.png", "a/meshes/", trees);
     EXPECT_EQ(found.match, PictureMatch::Elsewhere);
     EXPECT_EQ(found.path, "a/meshes/images/x.png");
+}
+
+// A variable of the environment, as it was before afterwards.
+struct Environment {
+    std::string name, before;
+    bool was;
+    Environment(const char* variable, const std::string& value) : name(variable) {
+        const char* old = std::getenv(variable);
+        was = old != nullptr;
+        before = was ? old : "";
+        setenv(variable, value.c_str(), 1);
+    }
+    ~Environment() {
+        if (was)
+            setenv(name.c_str(), before.c_str(), 1);
+        else
+            unsetenv(name.c_str());
+    }
+};
+
+TEST_F(Files, PackagesAreFoundByTheirVariables) {
+    write("ws/src/arm_description/meshes/a.png");
+    write("ws/src/repo/hand_description/meshes/b.png");
+    write("opt/share/leg_description/c.png");
+    write("models/wheel/materials/d.png");
+    Environment ros("ROS_PACKAGE_PATH", absolute("none") + "::" + absolute("ws/src") + "/");
+    Environment ament("AMENT_PREFIX_PATH", absolute("opt"));
+    Environment gazebo("GAZEBO_MODEL_PATH", absolute("models"));
+    auto find = [](const char* uri) { return path_of_package_uri(uri, "elsewhere/"); };
+    EXPECT_EQ(find("package://arm_description/meshes/a.png"),
+              absolute("ws/src/arm_description/meshes/a.png"));
+    EXPECT_EQ(find("Package://arm_description//meshes/../meshes/a.png"),
+              absolute("ws/src/arm_description/meshes/a.png"));
+    EXPECT_EQ(find("package://hand_description/meshes/b.png"),
+              absolute("ws/src/repo/hand_description/meshes/b.png"));
+    EXPECT_EQ(find("package://leg_description/c.png"), absolute("opt/share/leg_description/c.png"));
+    EXPECT_EQ(find("model://wheel/materials/d.png"), absolute("models/wheel/materials/d.png"));
+    for (const char* none :
+         {"package://wheel/materials/d.png", "package://arm_description/none.png",
+          "package://arm_description", "package://arm_description/", "package://", "package:///a",
+          "package://../ws/src/arm_description/meshes/a.png", "packages://arm_description/a.png",
+          "http://arm_description/meshes/a.png", "meshes/a.png"})
+        EXPECT_EQ(find(none), "") << none;
+    Environment itself("ROS_PACKAGE_PATH", absolute("ws/src/arm_description"));
+    EXPECT_EQ(find("package://arm_description/meshes/a.png"),
+              absolute("ws/src/arm_description/meshes/a.png"));
+}
+
+TEST_F(Files, PackagesAreFoundAroundTheDocument) {
+    for (const char* variable : {"ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH",
+                                 "GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH"})
+        unsetenv(variable);
+    write("checkout/package.xml", "<package>\n<name>\n arm_description </name>");
+    write("checkout/textures/a.png");
+    write("checkout/meshes/visual/arm.dae");
+    write("hand_description/textures/b.png");
+    write("wheel/model.config", "<model><name>A wheel</name></model>");
+    write("wheel/materials/c.png");
+    write("tyre/materials/d.png");
+    write("copy_description/textures/e.png");
+    write("package.xml", "<name>outer</name>");
+    write("textures/a.png");
+    auto find = [](const char* uri, const char* folder) {
+        return path_of_package_uri(uri, folder);
+    };
+    const char* arm = "checkout/meshes/visual/";
+    EXPECT_EQ(find("package://arm_description/textures/a.png", arm),
+              absolute("checkout/textures/a.png"));
+    EXPECT_EQ(find("package://hand_description/textures/b.png", arm),
+              absolute("hand_description/textures/b.png"))
+        << "beside the document's own package";
+    EXPECT_EQ(find("model://wheel/materials/c.png", "wheel/meshes/"),
+              absolute("wheel/materials/c.png"));
+    EXPECT_EQ(find("model://tyre/materials/d.png", "wheel/meshes/"),
+              absolute("tyre/materials/d.png"));
+    EXPECT_EQ(find("package://copy_description/textures/e.png", "copy_description/meshes/"),
+              absolute("copy_description/textures/e.png"))
+        << "a folder of that name";
+    EXPECT_EQ(find("package://outer/textures/a.png", arm), "") << "the nearest package alone";
+    EXPECT_EQ(find("package://arm_description/none.png", arm), "");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "runtime/base/percent_encoding.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/base/uri/package_uri.h"
 #include "runtime/description/findings.h"
 #include "runtime/gltf/file/check.h"
 #include "runtime/gltf/file/json_scan.h"
@@ -56,11 +57,11 @@ std::string read_bytes(const std::string& path, size_t limit, std::vector<unsign
     return "";
 }
 
-uint32_t little_endian_32(const unsigned char* at) {
 std::string_view text_of(const std::vector<unsigned char>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+uint32_t little_endian_32(const unsigned char* at) {
     return uint32_t(at[0]) | uint32_t(at[1]) << 8 | uint32_t(at[2]) << 16 | uint32_t(at[3]) << 24;
 }
 
@@ -125,8 +126,8 @@ bool read_file(std::vector<unsigned char>* out, std::string* error, const std::s
     if (!may_read(guard, path)) return false;
     std::string plain = fs::path(path).lexically_normal().string();
     *error = read_bytes(path, guard.wanted_bytes(plain), *out);
-    guard.file.bytes += out->size();
     if (const char* what = disguise_of(text_of(*out)); what && error->empty()) *error = what;
+    guard.file.bytes += out->size();
     guard.file.files.push_back(plain);
     return error->empty();
 }
@@ -230,6 +231,7 @@ bool check_extensions(const GltfFile& file, Diagnostics& diagnostics) {
 std::string gltf_path(const GltfFile& file, const std::string& uri) {
     std::string path = percent_decode(uri);
     if (path.empty() || path.find('\0') != std::string::npos) return "";
+    if (std::string found = path_of_package_uri(path, file.directory); !found.empty()) return found;
     if (path.front() != '/') path = file.directory + path;
     return fs::path(path).lexically_normal().string();
 }
@@ -286,12 +288,12 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     std::string error = check_gltf_shape(file.json, bytes.size());
     if (error.empty()) error = check_version(file.json);
     if (!error.empty()) return fail(error);
-    if (!check_extensions(file, diagnostics)) return std::nullopt;
-    Guard guard{options, diagnostics, file, {}};
     // What is required of readers says why buffers and accessors look broken to one without it.
-    for (const GltfBuffer& buffer : gltf_buffers(file.json))
+    if (!check_extensions(file, diagnostics)) return std::nullopt;
     error = check_gltf_json(file.json, is_binary(bytes));
     if (!error.empty()) return fail(error);
+    Guard guard{options, diagnostics, file, {}};
+    for (const GltfBuffer& buffer : gltf_buffers(file.json))
         if (!buffer.uri.empty()) guard.sizes[gltf_path(file, buffer.uri)] = buffer.bytes;
     // As it stands in `bytes`, a .glb's among its other chunks.
     size_t begin = size_t(json.data() - reinterpret_cast<const char*>(bytes.data()));
