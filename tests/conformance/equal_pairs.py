@@ -250,12 +250,25 @@ def assets():
     up = geometry(points=[(x, -z, y) for x, y, z in POINTS]).replace(own, turned)
     moved = f'<node id="n"><translate>.254 0 0</translate>{shown()}</node>'
     still = f'<node id="n"><translate>.254 0 0</translate><node id="m">{inch}{shown()}</node></node>'
+    y_up = asset("<up_axis>Y_UP</up_axis>")
+    # What a node instances has its own unit and axes, which are the document's here.
+    turned_node = (f'<node id="n">{z_up}<translate>.254 0 0</translate><rotate>0 0 1 90</rotate>'
+                   f'<node id="m">{y_up}<rotate>0 1 0 -90</rotate>{shown()}</node></node>')
+    instanced = f'<node id="n">{inch}<translate>10 0 0</translate><instance_node url="#whole"/></node>'
+    eye = EYE_NODE.replace(EYE, inch + "<lookat>{}</lookat>".format(
+        "  ".join(" ".join(repr(v / .0254) for v in p) for p in ((1.3, .9, 3), (0, .1, 0))) + "  0 1 0"))
+    suns = SUN_NODES.replace("<rotate>0 1 0 30</rotate>", z_up + "<rotate>0 0 1 30</rotate>")
     return {"none": document(moved),
             "geometry": document(moved, geometries=far.replace("<mesh>", inch + "<mesh>")),
             "library": document(moved, geometries=inch + far),
             "geometry_z_up": document(moved, geometries=up.replace("<mesh>", z_up + "<mesh>")),
             "node": document(f'<node id="n">{inch}<translate>10 0 0</translate>{shown()}</node>'),
             "inner_node": document(still),
+            "child_of_node": document(f'<node id="n">{inch}<translate>4 0 0</translate><node id="m">'
+                                      f'<translate>6 0 0</translate>{shown()}</node></node>'),
+            "node_z_up": document(turned_node),
+            "node_of_node": document(instanced, library_nodes=f'<node id="whole">{shown()}</node>'),
+            "eye": document(moved, eye=eye), "light_z_up": document(moved, light_nodes=suns),
             "library_node": document('<node id="n"><instance_node url="#whole"/></node>', library_nodes=inch
                                      + f'<node id="whole"><translate>10 0 0</translate>{shown()}</node>'),
             "visual_scene": document(f'<node id="n"><translate>.254 0 0</translate>{shown()}</node>').replace(
