@@ -438,12 +438,17 @@ TEST(Cameras, AutoStaysWithWhatIsThereAtTheStart) {
     }
 }
 
-TEST(Cameras, AutoShowsWhatIsFarAwayAtTheStartAlone) {
-    Hiding hiding({-1000, -1000, 0, 0, 0, 0});
-    Rendering r(hiding.scene.text(), hiding.options);
-    for (double time : {0.0, 5.0})
-        EXPECT_GT(Box(r.frame(64, 36, time).film).pixels, 64 * 36 * 3 / 100) << time;
-    EXPECT_EQ(r.count("SCENE_FAR_PART"), 1) << r.findings();
+TEST(Cameras, AutoShowsWhatStaysWhereTheOtherIsFarAwayAtTheStart) {
+    for (double far : {-1000.0, 1e5, -1e9}) {
+        Hiding hiding({far, far, 0, 0, 0, 0});
+        Rendering r(hiding.scene.text(), hiding.options);
+        for (double time : {0.0, 5.0}) {
+            Box box(r.frame(64, 36, time).film);
+            EXPECT_GT(box.pixels, 64 * 36 * 3 / 100) << far << " " << time;
+            EXPECT_LT(std::max(box.right, box.top), 1 - box.pixel) << far << " " << time;
+        }
+        EXPECT_EQ(r.count("SCENE_FAR_PART"), 1) << r.findings();
+    }
 }
 
 TEST(Cameras, AutoFramesAllWhereThatShowsSomething) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/build/shapes/pose_at.h"
+#include "runtime/build/shapes/shown_vertices.h"
 #include "runtime/vertices/deform.h"
 
 namespace kinora {
@@ -50,6 +51,29 @@ Bounds bounds_now(const Scene& scene) {
     return bounds;
 }
 
+// The bounds' centre; where they are so wide that its floats would leave small meshes no digits,
+// the centre of the shape that is nearest to the world's 0: things are hidden by moving them far
+// away.
+dvec3 origin_within(const Scene& scene, const Bounds& bounds) {
+    constexpr double kWide = 1e5;  // times a mesh's own size
+    dvec3 centre = 0.5 * (bounds.low + bounds.high);
+    double size = glm::length(bounds.high - bounds.low);
+    bool any_small = std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+        return has_triangles(mesh) && kWide * glm::length(dvec3(mesh.high - mesh.low)) < size;
+    });
+    if (!any_small) return centre;
+    ShownVertices vertices(scene);
+    dvec3 nearest = centre;
+    for (uint32_t h = 0; h < scene.shapes.size(); ++h) {
+        Bounds shape;
+        for (const dvec3& p : vertices.of(h)) shape.add(p);
+        dvec3 middle = 0.5 * (shape.low + shape.high);
+        bool small = kWide * glm::length(shape.high - shape.low) < size;
+        if (!shape.empty() && small && glm::length(middle) < glm::length(nearest)) nearest = middle;
+    }
+    return nearest;
+}
+
 // The centre of the first mesh, or its last joint.
 dvec3 first_origin(const Scene& scene) {
     const Shape& first = scene.shapes.front();
@@ -78,7 +102,7 @@ void set_bounds(Scene& scene) {
         bounds.add(dvec3(-1.0));
         bounds.add(dvec3(1.0));
     }
-    scene.origin = 0.5 * (bounds.low + bounds.high);
+    scene.origin = origin_within(scene, bounds);
     scene.low = bounds.low;
     scene.high = bounds.high;
     scene.size = std::max(glm::length(bounds.high - bounds.low), 1e-30);
