@@ -201,6 +201,10 @@ std::string check_version(std::string_view json) {
         return range ? json_string(json, *range, kNoFile, map) : std::string();
     };
     std::string version = number("/asset/version"), least = number("/asset/minVersion");
+    for (const char* list : {"/nodes", "/meshes", "/scenes"})
+        if (std::optional<JsonRange> range = json_find(json, list);
+            version.empty() && range && json[range->begin] == '{')
+            return "it is one of glTF 1.0, whose lists are objects";
     if (!version.empty() && version != "2" && !version.starts_with("2."))
         return fmt::format("its version is {}", version);
     if (!least.empty() && least != "2" && least != "2.0")

@@ -180,6 +180,7 @@ TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
     refused(pointer, ".gltf", "GLTF_INVALID", "git lfs pull");
     refused("PK\3\4rest", ".glb", "GLTF_INVALID", "zip archive");
     refused("\x1f\x8brest", ".gltf", "GLTF_INVALID", "gzip");
+    refused("{\"scenes\": {\"s\": {}}, \"nodes\": {}}", ".gltf", "GLTF_INVALID", "glTF 1.0");
     GltfText image = whole_scene();
     image.json["bufferViews"][0]["byteOffset"] = 1u << 30;
     refused(image.glb(), ".glb", "GLTF_INVALID", "image 0");
