@@ -6,12 +6,12 @@
 #include <atomic>
 #include <cstdio>
 #include <mutex>
-#include <thread>
 #include <utility>
 
 #include "runtime/base/check.h"
 #include "runtime/base/shared_library.h"
 #include "runtime/base/tasks/tasks_module.h"
+#include "runtime/base/tasks/usable_cores.h"
 
 namespace kinora {
 
@@ -28,7 +28,7 @@ struct TasksModule : SharedLibrary {
 };
 
 std::mutex g_changing;                              // of the two below
-std::atomic<int> g_threads = 0;                     // 0: not set, the machine's count
+std::atomic<int> g_threads = 0;                     // 0: not set, then usable_cores()
 std::atomic<const TasksModule*> g_tasks = nullptr;  // null: not opened
 thread_local bool t_serial = false;
 
@@ -61,7 +61,7 @@ void set_thread_count(int n) {
 }
 
 int thread_count() {
-    if (g_threads == 0) g_threads = std::max(1, int(std::thread::hardware_concurrency()));
+    if (g_threads == 0) g_threads = usable_cores();
     return g_threads;
 }
 

@@ -11,20 +11,20 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/base/tasks/usable_cores.h"
 #include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 
 inline constexpr int kMostThreads = 1024;
 
-// "8", "-1" (all but one) or "all".
+// "8", "-1" (all but one) or "all": the cores that the process may use.
 inline int parse_threads(const std::string& text, const char* option = "--threads") {
-    int cores = std::max(1, int(std::thread::hardware_concurrency()));
+    const int cores = usable_cores();
     if (text == "all") return cores;
     int n = 0;
     auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
