@@ -3,6 +3,7 @@
 #include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/convert/convert.h"
 
 namespace kinora {
@@ -84,6 +85,7 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_standard_streams();
     kinora::ready_heap(kinora::kHeapOfStart);
     kinora::ConvertOptions options;
     if (std::optional<int> code = kinora::parse_convert_options(argc, argv, options))

@@ -1,11 +1,11 @@
 // runtime/programs/play/main.cpp: kinora-play.
-#include <csignal>
 #include <cstdio>
 #include <new>
 
 #include "runtime/base/memory/heap.h"
 #include "runtime/play/player.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/play/headless.h"
 #include "runtime/programs/play/options.h"
 #include "runtime/programs/play/ui/layout.h"
@@ -55,11 +55,11 @@ int play_scene(const PlayOptions& options) {
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_standard_streams();
     kinora::use_large_pages();
     kinora::PlayOptions options;
     if (std::optional<int> code = kinora::parse_play_options(argc, argv, options))
         return kinora::finish(*code, "kinora-play");
-    std::signal(SIGPIPE, SIG_IGN);
     try {
         return kinora::finish(kinora::play_scene(options), "kinora-play");
     } catch (const std::bad_alloc&) {

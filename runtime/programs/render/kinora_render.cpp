@@ -20,6 +20,7 @@
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
 #include "runtime/programs/common/list_scene.h"
+#include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/band_writer.h"
 #include "runtime/programs/render/fingerprint.h"
@@ -515,6 +516,7 @@ bool names_file(const char* word) {
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_standard_streams();
     kinora::ready_heap(kinora::kHeapOfStart);
     // Where a file is named a scene will be traced: not for --version.
     std::jthread opening;
@@ -523,7 +525,6 @@ int main(int argc, char** argv) {
     kinora::RenderOptions options;
     if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
         return kinora::finish(*code, "kinora-render");
-    std::signal(SIGPIPE, SIG_IGN);
     try {
         return kinora::finish(kinora::Render(options).run(), "kinora-render");
     } catch (const std::bad_alloc&) {

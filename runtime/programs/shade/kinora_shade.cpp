@@ -1,7 +1,6 @@
 // runtime/programs/shade/kinora_shade.cpp: the shader writer's tool: a command line to its command.
 #include "runtime/programs/shade/kinora_shade.h"
 
-#include <csignal>
 #include <cstdio>
 #include <new>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/standard_streams.h"
 
 namespace kinora {
 
@@ -29,11 +29,11 @@ constexpr Command kCommands[] = {
 }  // namespace kinora
 
 int main(int argc, char** argv) {
+    kinora::ready_standard_streams();
     kinora::ready_heap(kinora::kHeapOfStart);
     kinora::ShadeOptions options;
     if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options))
         return kinora::finish(*code, "kinora-shade");
-    std::signal(SIGPIPE, SIG_IGN);
     try {
         for (const kinora::Command& command : kinora::kCommands)
             if (command.name == options.command)

@@ -2,18 +2,18 @@
 // files.
 #include "runtime/programs/validate/kinora_validate.h"
 
-#include <csignal>
 #include <cstdio>
 #include <new>
 
 #include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/standard_streams.h"
 
 int main(int argc, char** argv) {
+    kinora::ready_standard_streams();
     // A file's memory serves the next one: else a batch takes a tenth longer.
     kinora::ready_heap(kinora::kHeapOfStart);
-    std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away ends the report, not the process
     try {
         kinora::ValidateSettings settings;
         if (auto code = kinora::parse_validate_options(argc, argv, settings))

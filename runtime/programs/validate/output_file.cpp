@@ -79,10 +79,10 @@ bool OutputFile::close() {
         else
             temporary_.clear();
     }
-    if (error_ && error_ != EPIPE)
-        std::fprintf(stderr, "kinora-validate: cannot write '%s': %s\n",
-                     path_.empty() ? "stdout" : path_.c_str(), std::strerror(error_));
-    return error_ == 0;
+    if (error_ == 0 || error_ == EPIPE) return true;
+    std::fprintf(stderr, "kinora-validate: cannot write '%s': %s\n",
+                 path_.empty() ? "stdout" : path_.c_str(), std::strerror(error_));
+    return false;
 }
 
 int replace_file(const std::string& name, std::string_view text) {

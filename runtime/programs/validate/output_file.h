@@ -15,8 +15,8 @@ class OutputFile {
 
     void write(std::string_view text);
     bool good() const { return error_ == 0; }
-    // Gives the file its name. False: it cannot be written; stderr says why, unless the reader of
-    // stdout has gone away.
+    // Gives the file its name. False: it cannot be written; stderr says why. A reader that has gone
+    // away wanted no more, which is no failure.
     bool close();
 
   private:
