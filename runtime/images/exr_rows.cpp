@@ -2,11 +2,8 @@
 #define IMATH_HALF_NO_LOOKUP_TABLE  // which would be in its library
 #include <half.h>
 
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
-#include "runtime/base/regular_file.h"
 #include "runtime/images/exr_module_p.h"
 #include "runtime/images/libdeflate_p.h"
 #include "runtime/images/picture_rows_p.h"
@@ -17,7 +14,7 @@ namespace {
 
 class ExrRowsToFile final : public RowWriter {
   public:
-    explicit ExrRowsToFile(OpenFile file) : file_(std::move(file)) {}
+    explicit ExrRowsToFile(std::FILE* file) : file_(file) {}
     ~ExrRowsToFile() override {
         KinoraExrError ignored;
         if (writer_) exr_module().kinora_exr_end(writer_, &ignored);
@@ -44,7 +41,7 @@ class ExrRowsToFile final : public RowWriter {
                                        .text = header.data(),
                                        .compressor = compressor()};
         KinoraExrError error{};
-        writer_ = exr_module().kinora_exr_begin(file_.get(), path.c_str(), &picture, &error);
+        writer_ = exr_module().kinora_exr_begin(file_, path.c_str(), &picture, &error);
         return told(writer_ == nullptr, error, number);
     }
 
@@ -60,8 +57,7 @@ class ExrRowsToFile final : public RowWriter {
     std::string end(int& number) override {
         KinoraExrError error{};
         const int failed = exr_module().kinora_exr_end(std::exchange(writer_, nullptr), &error);
-        const std::string text = told(failed, error, number);
-        return text.empty() ? sync_file(file_.get(), number) : text;
+        return told(failed, error, number);
     }
 
   private:
@@ -82,7 +78,7 @@ class ExrRowsToFile final : public RowWriter {
                 }};
     }
 
-    OpenFile file_;
+    std::FILE* file_;
     KinoraExrWriter* writer_ = nullptr;
     libdeflate_compressor* deflate_ = nullptr;
 };
@@ -95,19 +91,12 @@ void round_to_depth(raytrace::Film& film, PictureDepth depth) {
         for (int k = 0; k < 4; ++k) p[k] = Imath::half(in_range_of_halves(p[k]));
 }
 
-std::unique_ptr<RowWriter> exr_rows(const std::string& path, const raytrace::Film& film, int height,
-                                    PictureDepth depth, const ImageTexts& texts, std::string& error,
-                                    int& number) {
+std::unique_ptr<RowWriter> exr_rows(std::FILE* file, const std::string& path,
+                                    const raytrace::Film& film, int height, PictureDepth depth,
+                                    const ImageTexts& texts, std::string& error, int& number) {
     error = exr_module().error();
     if (!error.empty()) return nullptr;
-    errno = 0;
-    OpenFile file(std::fopen(path.c_str(), "wb"));
-    if (!file) {
-        number = errno;
-        error = std::strerror(errno);
-        return nullptr;
-    }
-    auto rows = std::make_unique<ExrRowsToFile>(std::move(file));
+    auto rows = std::make_unique<ExrRowsToFile>(file);
     error = rows->begin(path, film, height, depth, texts, number);
     if (!error.empty()) rows.reset();
     return rows;

@@ -1,17 +1,12 @@
 // runtime/images/image_io.cpp: pictures to 8 bits, names of files, PNG and EXR back into memory.
 #include "runtime/images/image_io.h"
 
-#include <fcntl.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -48,19 +43,6 @@ void on_png_error(png_structp png, png_const_charp text) {
 }
 void on_png_warning(png_structp, png_const_charp) {}
 
-namespace fs = std::filesystem;
-
-// The process of ".NAME.PID.tmp", 0 if the name is not so.
-pid_t writer_of(const std::string& name) {
-    if (!name.starts_with(".") || !name.ends_with(".tmp")) return 0;
-    std::string stem = name.substr(0, name.size() - 4);
-    size_t dot = stem.rfind('.');
-    if (!is_image_path(stem.substr(1, dot - 1))) return 0;
-    int pid = 0;
-    auto [end, error] = std::from_chars(stem.data() + dot + 1, stem.data() + stem.size(), pid);
-    return error == std::errc() && end == stem.data() + stem.size() ? pid : 0;
-}
-
 }  // namespace
 
 Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding) {
@@ -85,38 +67,13 @@ bool is_image_path(const std::string& path) {
 }
 
 std::string try_image_path(const std::string& path, int* errno_out) {
-    int number = 0;
-    std::string error;
-    const std::string temporary = temporary_picture(path, error, number);
-    std::error_code ignored;
-    if (error.empty() && fs::is_directory(path, ignored)) {
-        number = EISDIR;
-        error = std::strerror(EISDIR);
-    }
-    if (error.empty()) {
-        int file = open(temporary.c_str(), O_WRONLY | O_CREAT, 0666);
-        number = file < 0 ? errno : 0;
-        if (file < 0) error = std::strerror(errno);
-        if (file >= 0) {
-            close(file);
-            unlink(temporary.c_str());
-        }
-    }
+    struct stat target {};
+    int number = stat(path.c_str(), &target) == 0 ? 0 : errno;
+    if (number == 0) number = S_ISDIR(target.st_mode) ? EISDIR : 0;
+    if (number == ENOENT) number = 0;  // the file or its folder, which is found out next
+    if (number == 0) number = TemporaryFile().open(path);
     if (errno_out) *errno_out = number;
-    return error;
-}
-
-void remove_stale_images(const std::string& path) {
-    fs::path folder = fs::path(path).parent_path();
-    std::error_code code;
-    for (fs::directory_iterator at(folder.empty() ? "." : folder, code), end; !code && at != end;
-         at.increment(code)) {
-        pid_t writer = writer_of(at->path().filename().string());
-        if (writer <= 0 || kill(writer, 0) == 0 || errno != ESRCH) continue;
-        std::error_code ignored;
-        auto age = fs::file_time_type::clock::now() - fs::last_write_time(at->path(), ignored);
-        if (!ignored && age > std::chrono::minutes(1)) fs::remove(at->path(), ignored);
-    }
+    return number ? std::strerror(number) : "";
 }
 
 namespace {
@@ -144,6 +101,15 @@ std::string write_image(const std::string& path, const raytrace::Film& film, Col
     PictureFile file;
     return write_rows(file, file.begin(path, film, film.height, encoding, texts, depth), film,
                       errno_out);
+}
+
+std::string write_image_and_folder(const std::string& path, const raytrace::Film& film,
+                                   ColorEncoding encoding, const ImageTexts& texts,
+                                   int* errno_out) {
+    const int number = make_folder_of(path);
+    if (number == 0) return write_image(path, film, encoding, texts, errno_out);
+    if (errno_out) *errno_out = number;
+    return std::strerror(number);
 }
 
 namespace {

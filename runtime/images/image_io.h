@@ -33,21 +33,22 @@ Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding);
 
 // Writes by the extension, .png (encoding as given) or .exr (RGBA of that depth, linear,
 // associated; ZIP; the film's planes as float channels): to a temporary name beside it, fsync,
-// rename. Makes missing directories. Returns an error text ("No space left on device"), or "" when
-// done; errno_out (if given) gets the system's number.
+// rename. The folder is there already. Returns an error text ("No space left on device"), or ""
+// when done; errno_out (if given) gets the system's number.
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
                         const ImageTexts& texts, int* errno_out = nullptr,
                         PictureDepth depth = PictureDepth::Half);
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
                       int* errno_out = nullptr);
 
-// Whether a file could be written there now: makes missing directories, tries a temporary file.
-// Returns an error text, or "".
-std::string try_image_path(const std::string& path, int* errno_out = nullptr);
+// The same, in a folder that is made where it is missing.
+std::string write_image_and_folder(const std::string& path, const raytrace::Film& film,
+                                   ColorEncoding encoding, const ImageTexts& texts,
+                                   int* errno_out = nullptr);
 
-// Removes temporary files beside `path` that a killed writer left: its process is gone and they
-// have not changed for a minute (another machine may be writing).
-void remove_stale_images(const std::string& path);
+// Whether a file could be written there now, which a temporary one tries. Returns an error text, or
+// "".
+std::string try_image_path(const std::string& path, int* errno_out = nullptr);
 
 // Whether write_image knows the extension.
 bool is_image_path(const std::string& path);

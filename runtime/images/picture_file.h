@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/images/image_io.h"
 
 namespace kinora {
@@ -15,19 +16,14 @@ class RowWriter {
     virtual ~RowWriter() = default;
     // The next rows, as many as the band has.
     virtual std::string write(const raytrace::Film& band, int& number) = 0;
-    // After the last row: all is on the disk.
+    // After the last row: all of it is in the file.
     virtual std::string end(int& number) = 0;
 };
 
-// Writes under a temporary name beside `path`, which end() makes the final one. Without end() no
-// file is left.
+// Writes under a temporary name beside `path`, which end() makes the final one when all is on the
+// disk. Without end() no file is left. The folder is there already.
 class PictureFile {
   public:
-    PictureFile() = default;
-    ~PictureFile();
-    PictureFile(const PictureFile&) = delete;
-    PictureFile& operator=(const PictureFile&) = delete;
-
     // Of so many rows in all; width and planes are the film's. Formats are write_image()'s.
     std::string begin(const std::string& path, const raytrace::Film& film, int height,
                       ColorEncoding encoding, const ImageTexts& texts,
@@ -44,8 +40,8 @@ class PictureFile {
     std::string begin_with(const std::string& path, Make&& make);
     std::string failed(std::string error);
 
-    std::unique_ptr<RowWriter> rows_;
-    std::string path_, temporary_;
+    TemporaryFile file_;
+    std::unique_ptr<RowWriter> rows_;  // to file_, which outlives it
     int number_ = 0;
 };
 

@@ -12,18 +12,12 @@ class PngRows : public RowWriter {
     using RowWriter::write;
 };
 
-// Null with the text in `error`, where the file cannot be opened.
-std::unique_ptr<PngRows> png_rows(const std::string& path, int width, int height,
-                                  ColorEncoding encoding, const ImageTexts& texts,
-                                  std::string& error, int& number);
-std::unique_ptr<RowWriter> exr_rows(const std::string& path, const raytrace::Film& film, int height,
-                                    PictureDepth depth, const ImageTexts& texts, std::string& error,
-                                    int& number);
-
-// Everything written so far is on the disk, or the error text.
-std::string sync_file(std::FILE* file, int& number);
-
-// For a picture that is not whole yet: ".NAME.PID.tmp" beside it. The folder is made.
-std::string temporary_picture(const std::string& path, std::string& error, int& number);
+// To an open file, which stays the caller's. Null with the text in `error`, where the header cannot
+// be written. Errors of the module name the file by `path`.
+std::unique_ptr<PngRows> png_rows(std::FILE* file, int width, int height, ColorEncoding encoding,
+                                  const ImageTexts& texts, std::string& error, int& number);
+std::unique_ptr<RowWriter> exr_rows(std::FILE* file, const std::string& path,
+                                    const raytrace::Film& film, int height, PictureDepth depth,
+                                    const ImageTexts& texts, std::string& error, int& number);
 
 }  // namespace kinora

@@ -2,7 +2,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "runtime/base/regular_file.h"
 #include "runtime/images/libpng_p.h"
 #include "runtime/images/picture_rows_p.h"
 
@@ -50,8 +49,7 @@ bool end_png_rows(png_structp png) {
 
 class PngRowsToFile final : public PngRows {
   public:
-    PngRowsToFile(OpenFile file, ColorEncoding encoding)
-        : file_(std::move(file)), encoding_(encoding) {
+    PngRowsToFile(std::FILE* file, ColorEncoding encoding) : file_(file), encoding_(encoding) {
         png_ = libpng().png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, on_png_fault,
                                                 on_png_note);
         info_ = libpng().png_create_info_struct(png_);
@@ -68,7 +66,7 @@ class PngRowsToFile final : public PngRows {
             png_texts.push_back(text);
         }
         errno = 0;
-        return told(begin_png_rows(png_, info_, file_.get(), width, height, png_texts.data(),
+        return told(begin_png_rows(png_, info_, file_, width, height, png_texts.data(),
                                    int(png_texts.size())),
                     number);
     }
@@ -81,8 +79,7 @@ class PngRowsToFile final : public PngRows {
     }
     std::string end(int& number) override {
         errno = 0;
-        std::string error = told(end_png_rows(png_), number);
-        return error.empty() ? sync_file(file_.get(), number) : error;
+        return told(end_png_rows(png_), number);
     }
 
   private:
@@ -92,7 +89,7 @@ class PngRowsToFile final : public PngRows {
         return fault_.text;
     }
 
-    OpenFile file_;
+    std::FILE* file_;
     ColorEncoding encoding_;
     PngFault fault_;
     png_structp png_ = nullptr;
@@ -101,19 +98,11 @@ class PngRowsToFile final : public PngRows {
 
 }  // namespace
 
-std::unique_ptr<PngRows> png_rows(const std::string& path, int width, int height,
-                                  ColorEncoding encoding, const ImageTexts& texts,
-                                  std::string& error, int& number) {
+std::unique_ptr<PngRows> png_rows(std::FILE* file, int width, int height, ColorEncoding encoding,
+                                  const ImageTexts& texts, std::string& error, int& number) {
     error = libpng().error();
     if (!error.empty()) return nullptr;
-    errno = 0;
-    OpenFile file(std::fopen(path.c_str(), "wb"));
-    if (!file) {
-        number = errno;
-        error = std::strerror(errno);
-        return nullptr;
-    }
-    auto rows = std::make_unique<PngRowsToFile>(std::move(file), encoding);
+    auto rows = std::make_unique<PngRowsToFile>(file, encoding);
     error = rows->begin(width, height, texts, number);
     if (!error.empty()) rows.reset();
     return rows;

@@ -2,7 +2,6 @@
 #include "runtime/images/point_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cerrno>
@@ -10,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/base/regular_file.h"
 
 namespace kinora {
@@ -116,24 +116,19 @@ static bool may_replace(const std::string& path) {
 
 std::string write_point_file(const std::string& path, const PointFile& file) {
     if (!may_replace(path)) return "another file has that name, and it is no point file";
-    std::string beside = fmt::format("{}.{}.part", path, getpid());
-    File f(std::fopen(beside.c_str(), "wb"));
-    if (!f) return std::strerror(errno);
-    bool ok = std::fwrite(kMagic, 1, kMagicBytes, f.get()) == kMagicBytes;
-    ok = ok && put(f.get(), uint32_t(file.channels.size())) && put(f.get(), uint64_t(file.count()));
+    TemporaryFile beside;
+    if (int number = beside.open(path)) return std::strerror(number);
+    std::FILE* f = beside.stream();
+    bool ok = std::fwrite(kMagic, 1, kMagicBytes, f) == kMagicBytes;
+    ok = ok && put(f, uint32_t(file.channels.size())) && put(f, uint64_t(file.count()));
     for (const PointChannel& c : file.channels) {
-        ok = ok && put(f.get(), uint32_t(c.type)) && put(f.get(), uint32_t(c.name.size()));
-        ok = ok && std::fwrite(c.name.data(), 1, c.name.size(), f.get()) == c.name.size();
+        ok = ok && put(f, uint32_t(c.type)) && put(f, uint32_t(c.name.size()));
+        ok = ok && std::fwrite(c.name.data(), 1, c.name.size(), f) == c.name.size();
     }
-    ok = ok && std::fwrite(file.points.data(), sizeof(float), file.points.size(), f.get()) ==
+    ok = ok && std::fwrite(file.points.data(), sizeof(float), file.points.size(), f) ==
                    file.points.size();
-    ok = std::fflush(f.get()) == 0 && ok;
-    f.reset();
-    if (ok) ok = std::rename(beside.c_str(), path.c_str()) == 0;
-    if (ok) return "";
-    std::string error = std::strerror(errno);
-    std::remove(beside.c_str());
-    return error;
+    const int number = ok ? beside.commit() : errno;
+    return ok && number == 0 ? "" : std::strerror(number);
 }
 
 }  // namespace kinora

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "runtime/base/file_extension.h"
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/play/core_p.h"
 #include "runtime/trade/knobs.h"
 
@@ -34,6 +36,7 @@ CommandResult written(PlayerCore& core, const std::string& file, const std::stri
 }
 
 std::string save_shown(const Picture& picture, const std::string& file) {
+    if (int number = make_folder_of(file)) return std::strerror(number);
     return write_png(file, {picture.width, picture.height, picture.rgba}, {});
 }
 
@@ -173,7 +176,8 @@ CommandResult action_save_picture(PlayerCore& core, const Arguments& a) {
     if (!picture) return refused("there is no picture yet");
     std::string name = without_extension(
         a.text_or(0, fmt::format("kinora-play.{:04}", std::lround(picture->frame))));
-    std::string error = write_image(name + ".exr", picture->film, core.request.color, {});
+    std::string error =
+        write_image_and_folder(name + ".exr", picture->film, core.request.color, {});
     if (error.empty()) error = save_shown(*picture, name + ".png");
     return written(core, name, error);
 }
@@ -185,7 +189,7 @@ CommandResult action_screenshot(PlayerCore& core, const Arguments& a) {
     if (!picture) return refused("there is no picture yet");
     return written(core, file,
                    has_extension(file, {".exr"})
-                       ? write_image(file, picture->film, core.request.color, {})
+                       ? write_image_and_folder(file, picture->film, core.request.color, {})
                        : save_shown(*picture, file));
 }
 

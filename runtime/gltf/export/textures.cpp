@@ -2,13 +2,13 @@
 #include "runtime/gltf/export/textures.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/description/memory_file.h"
 #include "runtime/description/scene_description.h"
@@ -53,9 +53,9 @@ std::string as_png(const std::string& path, std::string& error, std::string& los
                               ? uint8_t(std::lround(255 * std::clamp(image.floats[i], 0.0f, 1.0f)))
                               : encoded_byte(image.floats[i]);
     }
-    fs::path temporary = fs::temp_directory_path() / fmt::format("kinora-{}.png", getpid());
-    error = write_png(temporary.string(), out, {});
-    std::string bytes = error.empty() ? read_bytes(temporary.string()) : "";
+    const std::string temporary = temporary_name(fs::temp_directory_path() / "kinora.png");
+    error = write_png(temporary, out, {});
+    std::string bytes = error.empty() ? read_bytes(temporary) : "";
     std::error_code code;
     fs::remove(temporary, code);
     return bytes;

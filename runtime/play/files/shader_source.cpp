@@ -2,7 +2,6 @@
 #include "runtime/play/files/shader_source.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/description/shader_library.h"
 
 namespace kinora {
@@ -214,22 +214,8 @@ std::string save_source(const ShaderSourceText& source, const std::string& text)
         return "the file has changed since it was read";
     bytes.replace(source.begin, source.end - source.begin,
                   source.embedded ? xml_text(text, source.cdata) : text);
-    // Beside it, then in its place: the file is whole at any time.
-    std::string beside = fmt::format("{}.{}.tmp", source.file, getpid());
-    {
-        std::ofstream out(beside, std::ios::binary);
-        out << bytes;
-        if (!out.flush()) return std::strerror(errno);
-    }
-    std::error_code code;
-    std::filesystem::perms mode = std::filesystem::status(source.file, code).permissions();
-    std::filesystem::permissions(beside, mode, code);
-    if (std::rename(beside.c_str(), source.file.c_str()) != 0) {
-        std::string error = std::strerror(errno);
-        std::remove(beside.c_str());
-        return error;
-    }
-    return "";
+    const int number = replace_file(source.file, bytes);
+    return number ? std::strerror(number) : "";
 }
 
 }  // namespace kinora

@@ -1,6 +1,5 @@
 // runtime/play/session/session_file.cpp: sessions as JSON.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/file_extension.h"
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/images/png_memory.h"
 #include "runtime/play/session/session.h"
 
@@ -197,9 +197,8 @@ SceneEdits edits_of(const Reader& json) {
     edits.hidden = json.member("hidden").texts();
     for (const Reader& text : json.member("texts").list())
         edits.texts.push_back(
-            {text.member("material").text(), text.member("file").text(),
-             text.member("text").text(), 0,
-             text.has("alone") && text.member("alone").as<bool>("true or false")});
+            {text.member("material").text(), text.member("file").text(), text.member("text").text(),
+             0, text.has("alone") && text.member("alone").as<bool>("true or false")});
     return edits;
 }
 
@@ -261,15 +260,8 @@ std::string write_session(const std::string& file, const Session& session) {
     Session stored = session;
     fs::path folder = folder_of(file);
     map_paths(stored, [&](const std::string& path) { return from_folder(folder, path); });
-    std::string beside = fmt::format("{}.{}.tmp", file, getpid());
-    std::ofstream out(beside, std::ios::binary);
-    out << session_text(stored);
-    bool written = bool(out.flush());
-    std::string error = written ? "" : std::strerror(errno);
-    out.close();
-    if (written && std::rename(beside.c_str(), file.c_str()) != 0) error = std::strerror(errno);
-    if (!error.empty()) std::remove(beside.c_str());
-    return error;
+    const int number = write_whole_file(file, session_text(stored));
+    return number ? std::strerror(number) : "";
 }
 
 std::optional<Session> read_session(const std::string& file, std::string& error) {

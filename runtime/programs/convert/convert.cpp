@@ -1,9 +1,7 @@
 // runtime/programs/convert/convert.cpp: reads a scene, writes another, says what was lost.
 #include "runtime/programs/convert/convert.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -16,6 +14,7 @@
 #include "collada/document/write.h"
 #include "runtime/base/display_path.h"
 #include "runtime/base/file_extension.h"
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
 #include "runtime/base/regular_file.h"
@@ -34,31 +33,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// To a temporary name beside the output, then renamed: a file that has its name is whole.
+// A file that has its name is whole.
 int write_whole(const std::string& path, std::string_view bytes) {
-    fs::path target(path);
-    std::error_code code;
-    if (target.has_parent_path()) fs::create_directories(target.parent_path(), code);
-    std::string temporary =
-        (target.parent_path() / fmt::format(".{}.{}.tmp", target.filename().string(), getpid()))
-            .string();
-    int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    bool ok = file >= 0;
-    for (size_t at = 0; ok && at < bytes.size();) {
-        ssize_t n = write(file, bytes.data() + at, bytes.size() - at);
-        if (n < 0 && errno == EINTR) continue;
-        ok = n > 0;
-        if (ok) at += size_t(n);
-    }
-    ok = ok && fsync(file) == 0;
-    int error = errno;
-    if (file >= 0) close(file);
-    if (ok && std::rename(temporary.c_str(), path.c_str()) != 0) {
-        ok = false;
-        error = errno;
-    }
-    if (ok) return kExitOk;
-    if (file >= 0) unlink(temporary.c_str());
+    int error = make_folder_of(path);
+    if (error == 0) error = write_whole_file(path, bytes);
+    if (error == 0) return kExitOk;
     fmt::print(stderr, "kinora: error: cannot write '{}': {}\n", path, std::strerror(error));
     return error == ENOSPC || error == EDQUOT ? kExitRetry : kExitUnwritable;
 }

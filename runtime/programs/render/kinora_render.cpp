@@ -6,10 +6,12 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
 #include "raytrace/ray_tracer.h"
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/base/memory/heap.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
@@ -39,13 +41,16 @@ namespace kinora {
 namespace {
 
 // Set by the first signal; the frame under way is dropped at its next rays. A second signal stops
-// at once, and so does a shader that takes longer than this: no file is open while a frame is made.
+// at once, and so does a shader that takes longer than this.
 constexpr unsigned kStopSeconds = 4;
 std::atomic<int> g_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 void on_signal(int number) {
-    if (g_signal) _exit(128 + g_signal);
+    if (g_signal) {
+        unlink_temporaries();
+        _exit(128 + g_signal);
+    }
     g_signal = number;
     alarm(kStopSeconds);
 }
@@ -108,6 +113,7 @@ class Render {
     int report_unwritable(const std::string& file, const std::string& error, int number);
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
+    int ready_folders();
     bool keep_existing(const std::string& file, const std::string& print);
     void end_write();
     int end_bands(FrameRecord& record, bool whole);
@@ -214,6 +220,18 @@ int Render::refuse_unwritable(const std::string& file) {
     int number = 0;
     std::string error = try_image_path(file, &number);
     return error.empty() ? int(kExitOk) : report_unwritable(file, error, number);
+}
+
+// Once: a folder that is removed while frames are made is not made again.
+int Render::ready_folders() {
+    for (const std::string& file : {options_.contact_sheet, options_.output}) {
+        if (file.empty()) continue;
+        if (int number = make_folder_of(file))
+            return report_unwritable(file, std::strerror(number), number);
+        remove_old_temporaries(file);
+    }
+    return options_.contact_sheet.empty() ? int(kExitOk)
+                                          : refuse_unwritable(options_.contact_sheet);
 }
 
 // Whether the file is that picture already; the contact sheet shows it, too.
@@ -361,9 +379,7 @@ int Render::frames() {
     const SceneOptions& played = built_.scene->options;
     auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
     if (!list) return kExitUsage;
-    if (!options_.contact_sheet.empty())
-        if (int code = refuse_unwritable(options_.contact_sheet)) return code;
-    if (!options_.output.empty()) remove_stale_images(options_.output);
+    if (int code = ready_folders()) return code;
     scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
     if (options_.frame_target.any())
         if (int code = choose_settings_for_target(*list)) return code;

@@ -77,9 +77,9 @@ void print_ranges(const ShadeOutputs& outputs, const std::vector<std::string>& n
 int write_picture(const ShadeOptions& options, const raytrace::Film& film) {
     int number = 0;
     bool color = options.output == "Ci" || options.output == "Oi";
-    std::string error =
-        write_image(options.file, film, color ? ColorEncoding::Srgb : ColorEncoding::Linear,
-                    {{"Software", "kinora-shade " KINORA_VERSION}}, &number);
+    std::string error = write_image_and_folder(
+        options.file, film, color ? ColorEncoding::Srgb : ColorEncoding::Linear,
+        {{"Software", "kinora-shade " KINORA_VERSION}}, &number);
     if (error.empty()) return kExitOk;
     std::fprintf(stderr, "kinora-shade: cannot write '%s': %s\n", options.file.c_str(),
                  error.c_str());

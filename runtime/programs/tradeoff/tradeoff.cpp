@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
@@ -22,21 +22,9 @@ int unwritable_code(const std::string& path, int number) {
     return number == ENOSPC || number == EDQUOT ? kExitRetry : kExitUnwritable;
 }
 
-// To a temporary name beside it, fsync, rename.
 int write_whole(const std::string& path, const std::string& text) {
-    std::string beside = path + ".tmp" + std::to_string(::getpid());
-    std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(beside.c_str(), "wb"),
-                                                            &std::fclose);
-    if (!file) return unwritable_code(path, errno);
-    errno = 0;
-    bool good = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
-                std::fflush(file.get()) == 0 && ::fsync(::fileno(file.get())) == 0;
-    int number = errno;
-    good = std::fclose(file.release()) == 0 && good;
-    if (good && std::rename(beside.c_str(), path.c_str()) == 0) return kExitOk;
-    if (good) number = errno;
-    ::unlink(beside.c_str());
-    return unwritable_code(path, number ? number : EIO);
+    const int number = write_whole_file(path, text);
+    return number ? unwritable_code(path, number) : int(kExitOk);
 }
 
 }  // namespace

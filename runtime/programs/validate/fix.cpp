@@ -7,6 +7,7 @@
 
 #include "collada/document/archive.h"
 #include "collada/validate/fix.h"
+#include "runtime/base/files/temporary_file.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/validate/kinora_validate.h"

@@ -1,15 +1,12 @@
 // runtime/programs/validate/output_file.cpp: temporary name, write, rename.
 #include "runtime/programs/validate/output_file.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 
 namespace kinora {
 
@@ -39,19 +36,13 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
         descriptor_ = STDOUT_FILENO;
         return;
     }
-    bool direct = is_device(path_);  // a pipe or /dev/null cannot be replaced
-    temporary_ = direct ? "" : path_ + ".tmp" + std::to_string(::getpid());
-    const std::string& name = direct ? path_ : temporary_;
-    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) {
-        error_ = errno;
-        temporary_.clear();
+    if (is_device(path_)) {  // a pipe or /dev/null cannot be replaced
+        device_.reset(std::fopen(path_.c_str(), "wbe"));
+        error_ = device_ ? 0 : errno;
+    } else {
+        error_ = file_.open(path_);
     }
-}
-
-OutputFile::~OutputFile() {
-    if (descriptor_ > STDERR_FILENO) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    if (!error_) descriptor_ = ::fileno(device_ ? device_.get() : file_.stream());
 }
 
 void OutputFile::write(std::string_view text) {
@@ -67,43 +58,13 @@ void OutputFile::flush() {
 
 bool OutputFile::close() {
     flush();
-    if (descriptor_ > STDERR_FILENO) {
-        if (!error_ && !temporary_.empty() && ::fsync(descriptor_) != 0 && errno != EINVAL)
-            error_ = errno;
-        if (::close(descriptor_) != 0 && !error_) error_ = errno;
-        descriptor_ = -1;
-    }
-    if (!error_ && !temporary_.empty()) {
-        if (::rename(temporary_.c_str(), path_.c_str()) != 0)
-            error_ = errno;
-        else
-            temporary_.clear();
-    }
+    if (!error_ && file_.stream()) error_ = file_.commit();
+    device_.reset();
+    descriptor_ = -1;
     if (error_ == 0 || error_ == EPIPE) return true;
     std::fprintf(stderr, "kinora-validate: cannot write '%s': %s\n",
                  path_.empty() ? "stdout" : path_.c_str(), std::strerror(error_));
     return false;
-}
-
-int replace_file(const std::string& name, std::string_view text) {
-    // Not the link to a file, but the file.
-    std::unique_ptr<char, decltype(&std::free)> real(::realpath(name.c_str(), nullptr), std::free);
-    if (!real) return errno;
-    std::string path = real.get();
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) return errno;
-    if (::access(path.c_str(), W_OK) != 0) return errno;
-    std::string temporary = path + ".tmp" + std::to_string(::getpid());
-    int descriptor =
-        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, status.st_mode & 07777);
-    if (descriptor < 0) return errno;
-    int error = write_all(descriptor, text);
-    if (!error && ::fchmod(descriptor, status.st_mode & 07777) != 0) error = errno;
-    if (!error && ::fsync(descriptor) != 0) error = errno;
-    if (::close(descriptor) != 0 && !error) error = errno;
-    if (!error && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-    if (error) ::unlink(temporary.c_str());
-    return error;
 }
 
 std::string read_stdin() {

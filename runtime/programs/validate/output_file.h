@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/base/files/temporary_file.h"
+
 namespace kinora {
 
 class OutputFile {
   public:
-    explicit OutputFile(std::string path);  // "" or "-": stdout
-    ~OutputFile();                          // what was not closed is dropped
-    OutputFile(const OutputFile&) = delete;
+    explicit OutputFile(std::string path);  // "" or "-": stdout; what is not closed is dropped
 
     void write(std::string_view text);
     bool good() const { return error_ == 0; }
@@ -20,16 +20,14 @@ class OutputFile {
     bool close();
 
   private:
-    std::string path_, temporary_;
+    std::string path_;
+    TemporaryFile file_;
+    OpenFile device_;  // in place of file_
     int descriptor_ = -1;
     int error_ = 0;  // errno of the first failure
     std::string buffer_;
     void flush();
 };
-
-// Replaces a file (what a link leads to) by the text, at once; permissions stay. 0, or errno of
-// what failed.
-int replace_file(const std::string& path, std::string_view text);
 
 std::string read_stdin();  // up to its end
 

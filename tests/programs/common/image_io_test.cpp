@@ -293,9 +293,20 @@ TEST_F(ImageIo, PngHoldsSrgbAndUnassociatedAlpha) {
 }
 
 TEST_F(ImageIo, NoTemporaryFileStays) {
-    for (const char* name : {"a.png", "b.exr", "deep/er/c.png"})
+    for (const char* name : {"a.png", "b.exr"})
         ASSERT_EQ(write_image(path(name), ramp(8, 8), ColorEncoding::Srgb, {}), "") << name;
-    EXPECT_EQ(files(), 3u);
+    EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(ImageIo, AFolderIsMadeWhereThatIsAskedForAlone) {
+    int number = 0;
+    for (const char* name : {"deep/er/c.png", "deep/er/c.exr"})
+        EXPECT_NE(write_image(path(name), ramp(8, 8), ColorEncoding::Srgb, {}, &number), "");
+    EXPECT_EQ(number, ENOENT);
+    EXPECT_FALSE(fs::exists(path("deep")));
+    EXPECT_EQ(write_image_and_folder(path("deep/er/c.png"), ramp(8, 8), ColorEncoding::Srgb, {}),
+              "");
+    EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(ImageIo, AFileIsReplacedAsAWhole) {
@@ -335,8 +346,9 @@ TEST_F(ImageIo, ToldBeforehandWhetherAPathCanBeWritten) {
     std::ofstream(path("plain")) << "a file";
     fs::create_directories(folder_ / "taken.png");
     int number = 0;
-    EXPECT_EQ(try_image_path(path("new/folder/a.png")), "");
-    EXPECT_TRUE(fs::is_directory(folder_ / "new/folder"));
+    EXPECT_EQ(try_image_path(path("a.png")), "");
+    EXPECT_NE(try_image_path(path("new/folder/a.png"), &number), "");
+    EXPECT_EQ(number, ENOENT);
     EXPECT_NE(try_image_path(path("plain/a.png"), &number), "");
     EXPECT_EQ(number, ENOTDIR);
     EXPECT_NE(try_image_path(path("taken.png"), &number), "");
@@ -345,29 +357,6 @@ TEST_F(ImageIo, ToldBeforehandWhetherAPathCanBeWritten) {
     EXPECT_EQ(number, ENAMETOOLONG);
     EXPECT_NE(try_image_path("/dev/full/a.png", &number), "");
     EXPECT_EQ(files(), 1u);
-}
-
-TEST_F(ImageIo, RemovesWhatKilledWritersLeftAndNothingElse) {
-    std::string dead = "999999999", alive = std::to_string(getpid());
-    auto put = [&](const std::string& name, int minutes_old) {
-        std::ofstream(path(name)) << "x";
-        fs::last_write_time(path(name),
-                            fs::file_time_type::clock::now() - std::chrono::minutes(minutes_old));
-    };
-    put(".a.0001.png." + dead + ".tmp", 5);
-    put(".b.exr." + dead + ".tmp", 5);
-    std::vector<std::string> kept = {".young.png." + dead + ".tmp",
-                                     ".live.png." + alive + ".tmp",
-                                     ".note.txt." + dead + ".tmp",
-                                     "a.png",
-                                     ".x.png.tmp",
-                                     "a.png." + dead + ".tmp",
-                                     ".a.png.12x.tmp"};
-    for (const std::string& name : kept) put(name, name.starts_with(".young") ? 0 : 5);
-    remove_stale_images(path("f.####.png"));
-    EXPECT_EQ(files(), kept.size());
-    for (const std::string& name : kept) EXPECT_TRUE(fs::exists(path(name))) << name;
-    remove_stale_images(path("no such folder/f.png"));
 }
 
 // A limit on the file size makes write(2) fail as a full disk does, at any size one likes.
