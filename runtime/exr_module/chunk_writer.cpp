@@ -49,10 +49,10 @@ class ChunkWriter final : public KinoraExrWriter {
     ChunkWriter(std::FILE* file, const char* path, const KinoraExrPicture& picture,
                 std::vector<ExrChannel> channels)
         : compressor_(picture.compressor),
-          width_(size_t(picture.width)),
+          see_(picture.see),
           height_(picture.height),
-          half_(picture.half != 0),
-          channels_(std::move(channels)) {
+          channels_(std::move(channels)),
+          row_bytes_(picture, channels_) {
         exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
         setup.error_handler_fn = keep_quiet;
         setup.user_data = file;
@@ -72,15 +72,7 @@ class ChunkWriter final : public KinoraExrWriter {
 
     void write(int, int rows, const float* rgba, const float* const* planes) override {
         for (size_t row = 0; row < size_t(rows); ++row) {
-            if (half_) halves_.take(rgba + 4 * row * width_, 4 * width_);
-            for (const ExrChannel& channel : channels_) {
-                if (channel.plane >= 0)
-                    add(planes[channel.plane] + row * width_, 1);
-                else if (half_)
-                    add(halves_.data() + channel.color, 4);
-                else
-                    add(rgba + 4 * row * width_ + channel.color, 4);
-            }
+            row_bytes_.add(row, rgba, planes, raw_);
             ++rows_;
             if (rows_ % kRowsOfChunk == 0 || rows_ == height_) write_chunk();
         }
@@ -108,17 +100,8 @@ class ChunkWriter final : public KinoraExrWriter {
         must(exr_write_header(context_));
     }
 
-    // A row of a channel, every `step`th number. The file has the bytes of x86-64 and AArch64.
-    template <class T>
-    void add(const T* from, size_t step) {
-        const size_t before = raw_.size();
-        raw_.resize(before + width_ * sizeof(T));
-        uint8_t* to = raw_.data() + before;
-        for (size_t x = 0; x < width_; ++x, to += sizeof(T))
-            std::memcpy(to, &from[x * step], sizeof(T));
-    }
-
     void write_chunk() {
+        if (see_.see) see_.see(see_.state, raw_.data(), raw_.size());
         predict(raw_, predicted_);
         packed_.resize(raw_.size());
         // What does not get smaller is in the file as it is.
@@ -133,11 +116,10 @@ class ChunkWriter final : public KinoraExrWriter {
 
     exr_context_t context_ = nullptr;
     KinoraExrCompressor compressor_;
-    size_t width_;
+    KinoraExrSee see_;
     int height_;
-    bool half_;
     std::vector<ExrChannel> channels_;
-    Halves halves_;  // of a row
+    RowBytes row_bytes_;
     std::vector<uint8_t> raw_, predicted_, packed_;  // of the chunk under way
     int rows_ = 0;                                   // taken so far
 };

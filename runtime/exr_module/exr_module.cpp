@@ -6,6 +6,7 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfRgbaFile.h>
 #include <ImfStringAttribute.h>
@@ -58,6 +59,10 @@ bool works(KinoraExrError& error, Call&& call) {
     }
 }
 
+size_t bytes_of(Imf::PixelType type) {
+    return type == Imf::HALF ? sizeof(half) : sizeof(float);
+}
+
 }  // namespace
 
 namespace {
@@ -70,7 +75,9 @@ class ZlibWriter final : public KinoraExrWriter {
         : stream_(path, file),
           width_(picture.width),
           half_(picture.half != 0),
-          channels_(std::move(channels)) {
+          channels_(std::move(channels)),
+          see_(picture.see),
+          row_bytes_(picture, channels_) {
         Imf::Header header(width_, picture.height);
         header.compression() = Imf::ZIP_COMPRESSION;
         for (int i = 0; i < picture.texts; ++i)
@@ -97,6 +104,11 @@ class ZlibWriter final : public KinoraExrWriter {
         }
         file_->setFrameBuffer(buffer);
         file_->writePixels(rows);
+        for (size_t row = 0; see_.see && row < size_t(rows); ++row) {
+            seen_.clear();
+            row_bytes_.add(row, rgba, planes, seen_);
+            see_.see(see_.state, seen_.data(), seen_.size());
+        }
     }
     void end() override {
         file_.reset();  // whose destructor writes the table of lines
@@ -112,6 +124,9 @@ class ZlibWriter final : public KinoraExrWriter {
     bool half_;
     std::vector<ExrChannel> channels_;
     Halves halves_;
+    KinoraExrSee see_;
+    RowBytes row_bytes_;
+    std::vector<uint8_t> seen_;  // of a row
     std::optional<Imf::OutputFile> file_;
 };
 
@@ -176,6 +191,37 @@ int64_t kinora_exr_text(const char* path, const char* key, char* value, uint64_t
     if (!any) return -1;
     std::snprintf(value, bytes, "%s", found.c_str());
     return int64_t(found.size());
+}
+
+int kinora_exr_see(const char* path, const KinoraExrSee* see) {
+    KinoraExrError ignored;
+    return !works(ignored, [&] {
+        Imf::InputFile file(path);
+        if (!file.isComplete()) throw std::runtime_error("rows are missing");
+        const Imath::Box2i window = file.header().dataWindow();
+        const size_t width = size_t(window.max.x - window.min.x) + 1;
+        std::vector<std::pair<std::string, Imf::PixelType>> channels;
+        size_t bytes = 0;
+        for (auto at = file.header().channels().begin(); at != file.header().channels().end();
+             ++at) {
+            channels.emplace_back(at.name(), at.channel().type);
+            bytes += width * bytes_of(at.channel().type);
+        }
+        std::vector<char> row(bytes);
+        Imf::FrameBuffer buffer;
+        char* channel_row = row.data();
+        for (const auto& [name, type] : channels) {
+            const size_t step = bytes_of(type);
+            buffer.insert(name,
+                          Imf::Slice(type, channel_row - ptrdiff_t(step) * window.min.x, step, 0));
+            channel_row += step * width;
+        }
+        file.setFrameBuffer(buffer);
+        for (int y = window.min.y; y <= window.max.y; ++y) {
+            file.readPixels(y);
+            see->see(see->state, row.data(), row.size());
+        }
+    });
 }
 
 int kinora_exr_read(const char* path, KinoraExrPixels* pixels) {

@@ -26,6 +26,13 @@ struct KinoraExrCompressor {
     size_t (*compress)(void* state, const void* in, size_t count, void* out, size_t room);
 };
 
+// Sees the bytes of rows as they are before they are compressed: of each row one channel behind the
+// other, in the order of the file.
+struct KinoraExrSee {
+    void* state;                                                // the caller's, given back
+    void (*see)(void* state, const void* bytes, size_t count);  // null: nobody does
+};
+
 // RGBA by halves or floats, and planes as float channels; linear, associated, ZIP.
 struct KinoraExrPicture {
     int width, height;
@@ -36,6 +43,7 @@ struct KinoraExrPicture {
     int texts;
     const KinoraExrText* text;
     KinoraExrCompressor compressor;  // stays while the picture is written; none: OpenEXR's zlib
+    KinoraExrSee see;
 };
 
 // Rows from the top.
@@ -60,6 +68,9 @@ int kinora_exr_end(KinoraExrWriter* writer, KinoraExrError* error);
 // A text of a whole file's header into `value`, up to `bytes` with the final 0. Returns its length,
 // -1 where the file or the text is not there.
 int64_t kinora_exr_text(const char* path, const char* key, char* value, uint64_t bytes);
+
+// Shows all rows of a whole file; 0, or another number where they cannot be read.
+int kinora_exr_see(const char* path, const KinoraExrSee* see);
 
 // RGBA of a file; 0, or another number where it cannot be read.
 int kinora_exr_read(const char* path, KinoraExrPixels* pixels);

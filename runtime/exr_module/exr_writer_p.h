@@ -3,6 +3,7 @@
 
 #include <half.h>
 
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,6 +40,43 @@ class Halves {
 
   private:
     std::vector<half> halves_;
+};
+
+// Rows as the file has them: of each row one channel behind the other.
+class RowBytes {
+  public:
+    RowBytes(const KinoraExrPicture& picture, const std::vector<ExrChannel>& channels)
+        : width_(size_t(picture.width)), half_(picture.half != 0), channels_(channels) {}
+
+    // Adds row `row` of the numbers given to `bytes`.
+    void add(size_t row, const float* rgba, const float* const* planes,
+             std::vector<uint8_t>& bytes) {
+        if (half_) halves_.take(rgba + 4 * row * width_, 4 * width_);
+        for (const ExrChannel& channel : channels_) {
+            if (channel.plane >= 0)
+                add_numbers(planes[channel.plane] + row * width_, 1, bytes);
+            else if (half_)
+                add_numbers(halves_.data() + channel.color, 4, bytes);
+            else
+                add_numbers(rgba + 4 * row * width_ + channel.color, 4, bytes);
+        }
+    }
+
+  private:
+    // Every `step`th number. The file has the bytes of x86-64 and AArch64.
+    template <class T>
+    void add_numbers(const T* from, size_t step, std::vector<uint8_t>& bytes) const {
+        const size_t before = bytes.size();
+        bytes.resize(before + width_ * sizeof(T));
+        uint8_t* to = bytes.data() + before;
+        for (size_t x = 0; x < width_; ++x, to += sizeof(T))
+            std::memcpy(to, &from[x * step], sizeof(T));
+    }
+
+    size_t width_;
+    bool half_;
+    std::vector<ExrChannel> channels_;
+    Halves halves_;  // of a row
 };
 
 // Writes chunks that the picture's compressor made.

@@ -15,6 +15,7 @@ struct ExrModule : SharedLibrary {
     KINORA_FUNCTION(kinora_exr_write);
     KINORA_FUNCTION(kinora_exr_end);
     KINORA_FUNCTION(kinora_exr_text);
+    KINORA_FUNCTION(kinora_exr_see);
     KINORA_FUNCTION(kinora_exr_read);
     KINORA_FUNCTION(kinora_exr_free_pixels);
 };

@@ -2,8 +2,10 @@
 #define IMATH_HALF_NO_LOOKUP_TABLE  // which would be in its library
 #include <half.h>
 
+#include <string_view>
 #include <utility>
 
+#include "runtime/base/files/content_hash.h"
 #include "runtime/images/exr_module_p.h"
 #include "runtime/images/libdeflate_p.h"
 #include "runtime/images/picture_rows_p.h"
@@ -11,6 +13,26 @@
 namespace kinora {
 
 namespace {
+
+// Until the last row is known; as wide as the digits that take its place.
+constexpr const char* kNoChecksum = "................";
+static_assert(std::string_view(kNoChecksum).size() == kChecksumDigits);
+
+void add_to_hash(void* hash, const void* bytes, size_t count) {
+    static_cast<ContentHash*>(hash)->add(bytes, count);
+}
+
+// Over kNoChecksum in the header. Where that is not found the file has no checksum.
+void put_checksum(std::FILE* file, const std::string& digits) {
+    constexpr size_t kMostHeader = 1 << 20;
+    std::string head(kMostHeader, '\0');
+    std::fseek(file, 0, SEEK_SET);
+    head.resize(std::fread(head.data(), 1, head.size(), file));
+    const size_t name = head.find(std::string(kChecksumText) + '\0');
+    const size_t at = name == head.npos ? name : head.find(kNoChecksum, name);
+    std::fseek(file, at == head.npos ? 0 : long(at), at == head.npos ? SEEK_END : SEEK_SET);
+    if (at != head.npos) std::fwrite(digits.data(), 1, digits.size(), file);
+}
 
 class ExrRowsToFile final : public RowWriter {
   public:
@@ -24,7 +46,11 @@ class ExrRowsToFile final : public RowWriter {
     std::string begin(const std::string& path, const raytrace::Film& film, int height,
                       PictureDepth depth, const ImageTexts& texts, int& number) {
         std::vector<KinoraExrText> header;
-        for (const auto& [key, value] : texts) header.push_back({key.c_str(), value.c_str()});
+        for (const auto& [key, value] : texts) {
+            const bool checksum = key == kChecksumText;
+            wants_checksum_ |= checksum;
+            header.push_back({key.c_str(), checksum ? kNoChecksum : value.c_str()});
+        }
         std::vector<const char*> names;
         std::vector<int> in_file;
         for (const raytrace::AovPlane& plane : film.aovs) {
@@ -39,7 +65,8 @@ class ExrRowsToFile final : public RowWriter {
                                        .plane_in_file = in_file.data(),
                                        .texts = int(header.size()),
                                        .text = header.data(),
-                                       .compressor = compressor()};
+                                       .compressor = compressor(),
+                                       .see = {&hash_, wants_checksum_ ? add_to_hash : nullptr}};
         KinoraExrError error{};
         writer_ = exr_module().kinora_exr_begin(file_, path.c_str(), &picture, &error);
         return told(writer_ == nullptr, error, number);
@@ -54,9 +81,10 @@ class ExrRowsToFile final : public RowWriter {
         return told(failed, error, number);
     }
 
-    std::string end(int& number) override {
+    std::string end(bool checksum, int& number) override {
         KinoraExrError error{};
         const int failed = exr_module().kinora_exr_end(std::exchange(writer_, nullptr), &error);
+        if (!failed && checksum && wants_checksum_) put_checksum(file_, hash_.digits());
         return told(failed, error, number);
     }
 
@@ -81,6 +109,8 @@ class ExrRowsToFile final : public RowWriter {
     std::FILE* file_;
     KinoraExrWriter* writer_ = nullptr;
     libdeflate_compressor* deflate_ = nullptr;
+    bool wants_checksum_ = false;
+    ContentHash hash_;
 };
 
 }  // namespace

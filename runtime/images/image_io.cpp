@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "runtime/base/file_extension.h"
+#include "runtime/base/files/content_hash.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/images/exr_module_p.h"
 #include "runtime/images/libpng_p.h"
@@ -134,6 +135,13 @@ bool png_read(std::FILE* file, png_structp png, png_infop info, Image8* rows) {
     return true;
 }
 
+// png_read for with_png.
+auto png_reader(Image8* rows) {
+    return [rows](std::FILE* file, png_structp png, png_infop info) {
+        return png_read(file, png, info, rows);
+    };
+}
+
 // Whether the file ends with PNG's last chunk: one that was cut short does not.
 bool png_has_end(std::FILE* file) {
     constexpr unsigned char kEnd[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
@@ -144,19 +152,61 @@ bool png_has_end(std::FILE* file) {
     return read && std::memcmp(last, kEnd, sizeof last) == 0;
 }
 
-// Opens a PNG and hands it to `use(png, info)` after png_read.
-template <class Use>
-bool with_png(const std::string& path, Image8* rows, Use use) {
+// Opens a PNG and hands it to `use(png, info)` after `read(file, png, info)`, which returns whether
+// it could.
+template <class Read, class Use>
+bool with_png(const std::string& path, Read read, Use use) {
     OpenFile file = open_regular_file(path);
     if (!libpng().error().empty() || !file || !png_has_end(file.get())) return false;
     PngError error;
     png_structp png = libpng().png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error,
                                                       on_png_warning);
     png_infop info = libpng().png_create_info_struct(png);
-    bool ok = png_read(file.get(), png, info, rows);
+    bool ok = read(file.get(), png, info);
     if (ok) use(png, info);
     libpng().png_destroy_read_struct(&png, &info, nullptr);
     return ok;
+}
+
+// Of a file that write_image wrote; else false.
+bool hash_png_rows(std::FILE* file, png_structp png, png_infop info, ContentHash& hash,
+                   std::vector<uint8_t>& row) {
+    if (setjmp(*png_jump(png))) return false;
+    libpng().png_init_io(png, file);
+    libpng().png_read_info(png, info);
+    const size_t bytes = libpng().png_get_rowbytes(png, info);
+    if (bytes != size_t(libpng().png_get_image_width(png, info)) * 4) return false;
+    row.resize(bytes);
+    for (png_uint_32 y = libpng().png_get_image_height(png, info); y > 0; --y) {
+        libpng().png_read_row(png, row.data(), nullptr);
+        hash.add(row.data(), row.size());
+    }
+    libpng().png_read_end(png, info);
+    return true;
+}
+
+std::optional<std::string> find_png_text(png_structp png, png_infop info, const std::string& key) {
+    std::optional<std::string> value;
+    png_textp texts = nullptr;
+    int count = 0;
+    libpng().png_get_text(png, info, &texts, &count);
+    for (int i = 0; i < count; ++i)
+        if (key == texts[i].key) value = texts[i].text;
+    return value;
+}
+
+bool has_intact_png(const std::string& path) {
+    ContentHash hash;
+    std::vector<uint8_t> row;
+    std::optional<std::string> digits;
+    const auto read = [&](std::FILE* file, png_structp png, png_infop info) {
+        return hash_png_rows(file, png, info, hash, row);
+    };
+    return with_png(path, read,
+                    [&](png_structp png, png_infop info) {
+                        digits = find_png_text(png, info, kChecksumText);
+                    }) &&
+           digits == hash.digits();
 }
 
 std::optional<std::string> read_exr_text(const std::string& path, const std::string& key) {
@@ -178,19 +228,25 @@ std::optional<std::string> read_exr_text(const std::string& path, const std::str
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
     if (has_extension(path, {".exr"})) return read_exr_text(path, key);
     std::optional<std::string> value;
-    with_png(path, nullptr, [&](png_structp png, png_infop info) {
-        png_textp texts = nullptr;
-        int count = 0;
-        libpng().png_get_text(png, info, &texts, &count);
-        for (int i = 0; i < count; ++i)
-            if (key == texts[i].key) value = texts[i].text;
-    });
+    with_png(path, png_reader(nullptr),
+             [&](png_structp png, png_infop info) { value = find_png_text(png, info, key); });
     return value;
+}
+
+bool has_intact_pixels(const std::string& path) {
+    if (!has_extension(path, {".exr"})) return has_intact_png(path);
+    const std::optional<std::string> digits = read_exr_text(path, kChecksumText);
+    if (!digits) return false;
+    ContentHash hash;
+    const KinoraExrSee see{&hash, [](void* of, const void* bytes, size_t count) {
+                               static_cast<ContentHash*>(of)->add(bytes, count);
+                           }};
+    return exr_module().kinora_exr_see(path.c_str(), &see) == 0 && *digits == hash.digits();
 }
 
 std::optional<Image8> read_png(const std::string& path) {
     Image8 image;
-    if (!with_png(path, &image, [](png_structp, png_infop) {})) return std::nullopt;
+    if (!with_png(path, png_reader(&image), [](png_structp, png_infop) {})) return std::nullopt;
     return image;
 }
 

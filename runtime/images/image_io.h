@@ -22,6 +22,11 @@ void round_to_depth(raytrace::Film& film, PictureDepth depth);
 // Texts kept in the file's header: ("kinora/fingerprint", "...").
 using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 
+// A text whose value the writer puts in: 16 digits of a hash of the pixels' bytes before they are
+// compressed, row by row. In a PNG it stands behind the pixels.
+inline constexpr const char* kChecksumText = "kinora/checksum";
+inline constexpr size_t kChecksumDigits = 16;
+
 // 8-bit RGBA rows from the top, unassociated alpha.
 struct Image8 {
     int width = 0, height = 0;
@@ -55,6 +60,10 @@ bool is_image_path(const std::string& path);
 
 // A text of a PNG or EXR header; nothing if the file is missing, broken or has no such text.
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key);
+
+// Whether the whole file can be read and its pixels have the checksum that it carries. False where
+// it carries none.
+bool has_intact_pixels(const std::string& path);
 
 // Nothing if it cannot be read.
 std::optional<Image8> read_png(const std::string& path);

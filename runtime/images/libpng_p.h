@@ -21,6 +21,7 @@ struct LibPng : SharedLibrary {
     KINORA_FUNCTION(png_get_error_ptr);
     KINORA_FUNCTION(png_get_image_height);
     KINORA_FUNCTION(png_get_image_width);
+    KINORA_FUNCTION(png_get_rowbytes);
     KINORA_FUNCTION(png_get_text);
     KINORA_FUNCTION(png_image_begin_read_from_memory);
     KINORA_FUNCTION(png_image_finish_read);

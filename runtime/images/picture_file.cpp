@@ -53,8 +53,8 @@ std::string PictureFile::write(const Image8& rows) {
     return error.empty() ? error : failed(error);
 }
 
-std::string PictureFile::end() {
-    std::string error = rows_->end(number_);
+std::string PictureFile::end(bool checksum) {
+    std::string error = rows_->end(checksum, number_);
     if (!error.empty()) return failed(error);
     rows_.reset();
     number_ = file_.commit();

@@ -16,8 +16,8 @@ class RowWriter {
     virtual ~RowWriter() = default;
     // The next rows, as many as the band has.
     virtual std::string write(const raytrace::Film& band, int& number) = 0;
-    // After the last row: all of it is in the file.
-    virtual std::string end(int& number) = 0;
+    // After the last row: all of it is in the file. `checksum`: that which the texts name.
+    virtual std::string end(bool checksum, int& number) = 0;
 };
 
 // Writes under a temporary name beside `path`, which end() makes the final one when all is on the
@@ -32,7 +32,8 @@ class PictureFile {
     std::string begin_png(const std::string& path, int width, int height, const ImageTexts& texts);
     std::string write(const raytrace::Film& band);
     std::string write(const Image8& rows);
-    std::string end();
+    // Without its checksum a picture does not pass for the one that its texts say.
+    std::string end(bool checksum = true);
     int number() const { return number_; }
 
   private:

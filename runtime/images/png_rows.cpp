@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "runtime/base/files/content_hash.h"
 #include "runtime/images/libpng_p.h"
 #include "runtime/images/picture_rows_p.h"
 
@@ -41,10 +42,20 @@ bool put_png_rows(png_structp png, const Image8& image) {
         libpng().png_write_row(png, &image.rgba[size_t(y) * size_t(image.width) * 4]);
     return true;
 }
-bool end_png_rows(png_structp png) {
+// Texts that were set since the header was written stand behind the rows.
+bool end_png_rows(png_structp png, png_infop info, png_text* texts, int text_count) {
     if (setjmp(*png_jump(png))) return false;
-    libpng().png_write_end(png, nullptr);
+    libpng().png_set_text(png, info, texts, text_count);
+    libpng().png_write_end(png, info);
     return true;
+}
+
+png_text plain_text(const std::string& key, const std::string& value) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = const_cast<char*>(key.c_str());
+    text.text = const_cast<char*>(value.c_str());
+    return text;
 }
 
 class PngRowsToFile final : public PngRows {
@@ -59,11 +70,8 @@ class PngRowsToFile final : public PngRows {
     std::string begin(int width, int height, const ImageTexts& texts, int& number) {
         std::vector<png_text> png_texts;
         for (const auto& [key, value] : texts) {
-            png_text text{};
-            text.compression = PNG_TEXT_COMPRESSION_NONE;
-            text.key = const_cast<char*>(key.c_str());
-            text.text = const_cast<char*>(value.c_str());
-            png_texts.push_back(text);
+            wants_checksum_ |= key == kChecksumText;
+            if (key != kChecksumText) png_texts.push_back(plain_text(key, value));
         }
         errno = 0;
         return told(begin_png_rows(png_, info_, file_, width, height, png_texts.data(),
@@ -75,11 +83,14 @@ class PngRowsToFile final : public PngRows {
     }
     std::string write(const Image8& rows, int& number) override {
         errno = 0;
+        if (wants_checksum_) hash_.add(rows.rgba.data(), rows.rgba.size());
         return told(put_png_rows(png_, rows), number);
     }
-    std::string end(int& number) override {
+    std::string end(bool checksum, int& number) override {
         errno = 0;
-        return told(end_png_rows(png_), number);
+        const std::string key = kChecksumText, digits = hash_.digits();
+        png_text text = plain_text(key, digits);
+        return told(end_png_rows(png_, info_, &text, wants_checksum_ && checksum), number);
     }
 
   private:
@@ -91,6 +102,8 @@ class PngRowsToFile final : public PngRows {
 
     std::FILE* file_;
     ColorEncoding encoding_;
+    bool wants_checksum_ = false;
+    ContentHash hash_;
     PngFault fault_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;

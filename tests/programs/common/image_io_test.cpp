@@ -12,6 +12,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include <cerrno>
 #include <chrono>
@@ -413,6 +415,126 @@ TEST_F(ImageIo, ATruncatedOrForeignFileHasNoPicture) {
     EXPECT_FALSE(read_png(path("text.png")));
     EXPECT_FALSE(read_image_text(path("text.png"), "k"));
     EXPECT_FALSE(read_image_text(path("none.exr"), "k"));
+}
+
+raytrace::Film noise(int width, int height) {
+    raytrace::Film film(width, height);
+    std::mt19937 random(7);
+    for (vec4& p : film.rgba)
+        for (int k = 0; k < 4; ++k) p[k] = float(random() >> 8) * 0x1p-24f;
+    return film;
+}
+
+// XXH3 of the bytes in hexadecimal, by the library's own function.
+std::string hash_of(const std::vector<uint8_t>& bytes) {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx",
+                  static_cast<unsigned long long>(XXH3_64bits(bytes.data(), bytes.size())));
+    return digits;
+}
+
+TEST_F(ImageIo, APngsChecksumIsThatOfItsRows) {
+    Image8 image{7, 5, {}};
+    for (int i = 0; i < 7 * 5 * 4; ++i) image.rgba.push_back(uint8_t(i * 37));
+    ASSERT_EQ(write_png(path("a.png"), image, {{kChecksumText, ""}, {"k", "v"}}), "");
+    const std::string bytes = bytes_of(path("a.png"));
+    const std::string chunk = std::string("tEXt") + kChecksumText + '\0' + hash_of(image.rgba);
+    ASSERT_NE(bytes.find(chunk), bytes.npos);
+    EXPECT_GT(bytes.find(chunk), bytes.find("IDAT"));
+    EXPECT_EQ(read_image_text(path("a.png"), "k"), "v");
+    EXPECT_TRUE(has_intact_pixels(path("a.png")));
+}
+
+// The rows of an EXR: A B G R one behind the other, halves, little-endian.
+TEST_F(ImageIo, AnExrsChecksumIsThatOfItsRows) {
+    raytrace::Film film(3, 2);
+    std::vector<uint8_t> rows;
+    for (int y = 0; y < 2; ++y)
+        for (int k : {3, 2, 1, 0})
+            for (int x = 0; x < 3; ++x) {
+                film.at(x, y)[k] = float(x + 10 * y) / 8 + float(k);
+                const uint16_t bits = half(film.at(x, y)[k]).bits();
+                rows.push_back(uint8_t(bits));
+                rows.push_back(uint8_t(bits >> 8));
+            }
+    ASSERT_EQ(write_image(path("a.exr"), film, ColorEncoding::Srgb, {{kChecksumText, ""}}), "");
+    EXPECT_EQ(read_image_text(path("a.exr"), kChecksumText), hash_of(rows));
+    EXPECT_TRUE(has_intact_pixels(path("a.exr")));
+}
+
+TEST_F(ImageIo, PicturesWithAChecksumAreIntactInEveryForm) {
+    const ImageTexts texts{{"kinora/fingerprint", "0123"}, {kChecksumText, ""}};
+    raytrace::Film film = noise(33, 50);
+    film.add_aov("z"), film.add_aov("a.x");
+    for (raytrace::AovPlane& plane : film.aovs)
+        for (size_t i = 0; i < plane.values.size(); ++i) plane.values[i] = float(i) / 7;
+    for (PictureDepth depth : {PictureDepth::Half, PictureDepth::Float})
+        for (const char* name : {"a.exr", "a.png"}) {
+            ASSERT_EQ(write_image(path(name), film, ColorEncoding::Srgb, texts, nullptr, depth),
+                      "");
+            EXPECT_TRUE(has_intact_pixels(path(name))) << name;
+            EXPECT_EQ(read_image_text(path(name), "kinora/fingerprint"), "0123");
+            // In bands: the same file.
+            const std::string whole = bytes_of(path(name));
+            PictureFile file;
+            ASSERT_EQ(file.begin(path(name), film, 50, ColorEncoding::Srgb, texts, depth), "");
+            for (int top = 0; top < 50; top += 20) {
+                raytrace::Film band(33, std::min(20, 50 - top));
+                band.top = top;
+                const size_t first = size_t(top) * 33, count = band.rgba.size();
+                std::copy_n(film.rgba.begin() + ptrdiff_t(first), count, band.rgba.begin());
+                for (const raytrace::AovPlane& plane : film.aovs) {
+                    raytrace::AovPlane part = plane;
+                    part.values.assign(plane.values.begin() + ptrdiff_t(first),
+                                       plane.values.begin() + ptrdiff_t(first + count));
+                    band.aovs.push_back(part);
+                }
+                ASSERT_EQ(file.write(band), "");
+            }
+            ASSERT_EQ(file.end(), "");
+            EXPECT_EQ(bytes_of(path(name)), whole) << name;
+        }
+}
+
+TEST_F(ImageIo, WithoutAChecksumNoPictureIsIntact) {
+    const raytrace::Film film = noise(16, 16);
+    for (const char* name : {"a.png", "a.exr"}) {
+        ASSERT_EQ(write_image(path(name), film, ColorEncoding::Srgb, {{"k", "v"}}), "");
+        EXPECT_FALSE(has_intact_pixels(path(name))) << name;
+        PictureFile file;
+        ASSERT_EQ(file.begin(path(name), film, 16, ColorEncoding::Srgb, {{kChecksumText, ""}}), "");
+        ASSERT_EQ(file.write(film), "");
+        ASSERT_EQ(file.end(false), "");
+        EXPECT_FALSE(has_intact_pixels(path(name))) << name;
+        EXPECT_TRUE(read_image(path(name), ColorEncoding::Srgb)) << name;
+    }
+    EXPECT_FALSE(has_intact_pixels(path("none.png")));
+    EXPECT_FALSE(has_intact_pixels(path("none.exr")));
+}
+
+// Each byte of the pixels, one after the other; those of the header are not the checksum's matter.
+TEST_F(ImageIo, NoByteOfThePixelsChangesUnseen) {
+    for (const char* name : {"a.png", "a.exr"}) {
+        ASSERT_EQ(write_image(path(name), noise(8, 20), ColorEncoding::Srgb, {{kChecksumText, ""}}),
+                  "");
+        const std::string whole = bytes_of(path(name));
+        const size_t pixels = name == std::string("a.png") ? whole.find("IDAT") + 4 : 400;
+        for (size_t at = pixels; at < whole.size(); at += 3) {
+            std::string changed = whole;
+            changed[at] = char(changed[at] ^ 0x10);
+            std::ofstream(path("changed") + name, std::ios::binary) << changed;
+            const bool intact = has_intact_pixels(path("changed") + name);
+            if (!intact) continue;
+            // Then it is one that no reader looks at: the pixels are the same.
+            EXPECT_EQ(read_image(path("changed") + name, ColorEncoding::Srgb)->rgba,
+                      read_image(path(name), ColorEncoding::Srgb)->rgba)
+                << name << " " << at;
+        }
+        for (size_t size : {whole.size() - 1, whole.size() / 2, size_t(0)}) {
+            std::ofstream(path("cut") + name, std::ios::binary) << whole.substr(0, size);
+            EXPECT_FALSE(has_intact_pixels(path("cut") + name)) << size;
+        }
+    }
 }
 
 TEST_F(ImageIo, KnowsItsExtensions) {
