@@ -36,7 +36,9 @@ class FindingPrinter {
     // Says how many were not printed since it last did.
     void summarize();
 
-    // Under options.strict: a file that the scene names is missing or refused.
+    // A file that the scene names is missing or refused.
+    bool misses_assets() const { return missing_; }
+    // So it is under options.strict.
     bool lacks_assets() const { return options_.strict && missing_; }
     // 5 where it lacks assets, and 1 where there was another error.
     int exit_code_of_errors() const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <unordered_set>
 
 namespace kinora {
 
@@ -74,7 +75,23 @@ std::optional<std::vector<int64_t>> parse_frames(std::string_view text, std::str
         error = "the range names no frame";
         return std::nullopt;
     }
+    std::unordered_set<int64_t> seen;
+    std::erase_if(frames, [&](int64_t frame) { return !seen.insert(frame).second; });
     return frames;
+}
+
+std::string frame_ranges(std::vector<int64_t> frames) {
+    std::ranges::sort(frames);
+    std::string text;
+    for (size_t i = 0; i < frames.size();) {
+        size_t last = i;
+        while (last + 1 < frames.size() && frames[last + 1] == frames[last] + 1) ++last;
+        text += text.empty() ? "" : ", ";
+        text += last == i ? fmt::format("{}", frames[i])
+                          : fmt::format("{}-{}", frames[i], frames[last]);
+        i = last + 1;
+    }
+    return text;
 }
 
 FrameRate frame_rate_of(double value) {

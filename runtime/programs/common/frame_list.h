@@ -12,8 +12,11 @@ namespace kinora {
 inline constexpr int64_t kMostFrames = 10'000'000;  // of one run
 
 // "1-240x2,300,10-1x-1", also "1..240", "1:240x2", "1-240:2"; negative numbers allowed ("-5--1").
-// Nothing, with a text in `error`, when it is malformed or names no frame.
+// A frame that several ranges name is there once, at its first place. Nothing, with a text in
+// `error`, when it is malformed or names no frame.
 std::optional<std::vector<int64_t>> parse_frames(std::string_view text, std::string& error);
+// "7, 31-34" of frames in any order.
+std::string frame_ranges(std::vector<int64_t> frames);
 
 // Frames per second as a fraction: "24", "23.976", "24000/1001", "29.97" (the NTSC decimals mean
 // their exact fractions).

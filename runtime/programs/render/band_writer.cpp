@@ -34,10 +34,10 @@ bool BandWriter::take(const raytrace::Film& band) {
     return frame_.error.empty();
 }
 
-WrittenFrame BandWriter::finish(bool whole) {
+WrittenFrame BandWriter::finish(bool whole, bool checksum) {
     Stopwatch watch;
     if (file_ && whole && frame_.error.empty()) {
-        frame_.error = file_->end();
+        frame_.error = file_->end(checksum);
         frame_.number = file_->number();
     }
     file_.reset();

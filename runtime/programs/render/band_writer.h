@@ -20,8 +20,9 @@ class BandWriter {
     void start(WrittenFrame frame, int height);
     // The next band, from the top; false once something could not be written.
     bool take(const raytrace::Film& band);
-    // After the last band: how it went. `whole`: all bands came; else no file is left.
-    WrittenFrame finish(bool whole);
+    // After the last band: how it went. `whole`: all bands came; else no file is left. `checksum`:
+    // that which the texts name is put in.
+    WrittenFrame finish(bool whole, bool checksum);
 
   private:
     WrittenFrame frame_;

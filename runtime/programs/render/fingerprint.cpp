@@ -2,14 +2,15 @@
 #include "runtime/programs/render/fingerprint.h"
 
 #include <fmt/format.h>
-#define XXH_INLINE_ALL  // two calls are not worth a library at each start
-#include <xxhash.h>
 
-#include <filesystem>
+#include <algorithm>
+#include <optional>
 #include <set>
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/display_path.h"
+#include "runtime/base/files/build_id.h"
+#include "runtime/base/files/content_hash.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/description/texture_name.h"
 #include "runtime/trade/knobs.h"
@@ -35,37 +36,36 @@ std::set<std::string> named_files(const SceneDescription& description) {
 
 }  // namespace
 
-uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description) {
-    XXH64_hash_t hash = 0;
-    for (FileId f = 0; f < texts.count(); ++f) {
-        std::string_view text = texts.text(f);
-        hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);
-    }
-    // Textures and buffers by name, size and time of change.
+uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description,
+                     const std::string& scene) {
+    ContentHash hash;
+    FileHashes files;
+    for (FileId f = 0; f < texts.count(); ++f) hash.add_text(texts.text(f));
+    // A file by what is in it, wherever it lies, with how a texture's name says to read it.
     auto add_file = [&](const std::string& text) {
-        std::error_code code;
-        std::filesystem::path path(text.substr(0, text.find('\x1f')));
-        auto size = std::filesystem::file_size(path, code);
-        std::string stamp = display_path(text) + (code ? "" : fmt::format("{}", size));
-        auto time = std::filesystem::last_write_time(path, code);
-        if (!code) stamp += fmt::format("{}", time.time_since_epoch().count());
-        hash = XXH3_64bits_withSeed(stamp.data(), stamp.size(), hash);
+        const size_t modes = std::min(text.find('\x1f'), text.size());
+        const std::string path = text.substr(0, modes);
+        const std::optional<uint64_t> content = files.of(path);
+        hash.add_text(content ? text.substr(modes) : display_path(text));
+        if (content) hash.add(&*content, sizeof *content);
+        if (!content && is_regular_file(path)) hash.add_text("unreadable");
     };
+    add_file(scene);
     for_each_shader_use(description, [&](const ShaderUse& use) {
         for (const ParamSource& source : use.params)
             for (const std::string& text : source.strings) add_file(text);
     });
     for (const std::string& file : description.inputs) add_file(file);
     for (const std::string& file : named_files(description)) add_file(file);
-    return hash;
+    return hash.value();
 }
 
 std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int height, double rate,
                         double time) {
     std::string text = fmt::format(
-        "kinora {} {:016x} {}x{} {} {} filter width {} seed {} nan {} color {} camera {} up {} "
+        "kinora {} {} {:016x} {}x{} {} {} filter width {} seed {} nan {} color {} camera {} up {} "
         "unit {} dice limit {} time {:a}",
-        KINORA_VERSION, inputs, width, height, o.quality.name, knob_texts(o.quality),
+        KINORA_VERSION, build_id(), inputs, width, height, o.quality.name, knob_texts(o.quality),
         o.filter_width, o.seed, int(o.nan), int(o.color), o.camera,
         o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), o.dice_limit, time);
     text += fmt::format(" exposure {} {}", o.auto_exposure, o.exposure);
@@ -88,7 +88,9 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
     if (o.frame_target.any())
         text += fmt::format(" {} {}", target_text(o.frame_target), o.fixed_settings);
     if (o.session) text += session_text(*o.session);
-    return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+    ContentHash hash;
+    hash.add_text(text);
+    return hash.digits();
 }
 
 }  // namespace kinora

@@ -9,13 +9,14 @@
 
 namespace kinora {
 
-// A hash of what was read: the texts; textures, buffers and other files by name, size and time of
-// change. Before the first frame: the names that strings of shaders are then are the same at each
-// run.
-uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description);
+// A hash of what was read: the texts, and the contents of the scene's file, of textures, buffers
+// and other files. Before the first frame: the names that strings of shaders are then are the same
+// at each run.
+uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description,
+                     const std::string& scene);
 
-// Sixteen hexadecimal digits: what was read, the options, the engine, the picture's size, the
-// frames per second, the time.
+// Sixteen hexadecimal digits: what was read, the options, the program's build, the picture's size,
+// the frames per second, the time.
 std::string fingerprint(const RenderOptions& options, uint64_t inputs, int width, int height,
                         double rate, double time);
 

@@ -2,16 +2,30 @@
 // plays.
 #include "runtime/programs/render/frames_to_render.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/description/findings.h"
 #include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
 
-std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
-    const RenderOptions& options, FrameRate rate, double start, double end) {
-    std::vector<std::pair<int64_t, double>> list;
+namespace {
+
+// COLLADA 1.5, <sampler pre_behavior post_behavior>.
+bool moves_beyond_keys(const anim::Animation& animation) {
+    return std::ranges::any_of(animation.samplers, [](const anim::Sampler& sampler) {
+        return sampler.pre != anim::Behaviour::Constant ||
+               sampler.post != anim::Behaviour::Constant;
+    });
+}
+
+}  // namespace
+
+std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRate rate,
+                                           double start, double end) {
+    FrameTimes list;
     if (options.time) {
         list.emplace_back(std::llround(*options.time * rate.value()), *options.time);
     } else if (options.frames) {
@@ -45,6 +59,35 @@ std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
         return std::nullopt;
     }
     return list;
+}
+
+FrameTimes middle_of_shot(const RenderOptions& options, FrameRate rate, double start, double end) {
+    int64_t first = first_frame(rate, start), count = 0;
+    if (options.turntable) {
+        count = *options.turntable;
+    } else {
+        const double last = std::round(end * rate.value());
+        if (!(std::abs(last) < kFurthestFrame) || int64_t(last) < first) return {};
+        count = int64_t(last) - first + 1;
+    }
+    const int64_t middle = first + count / 2, before = std::max(first, middle - 1);
+    return {{before, rate.time(before)}, {middle, rate.time(middle)}};
+}
+
+void report_past(const RenderOptions& options, FrameRate rate, const Scene& scene,
+                 const FrameTimes& frames, Diagnostics& diagnostics) {
+    const SceneOptions& played = scene.options;
+    const bool chosen = options.frames || options.time;
+    const bool moves = played.start_time < played.end_time;
+    if (!chosen || !moves || moves_beyond_keys(scene.description->animation)) return;
+    const double first = std::round(played.start_time * rate.value());
+    const double last = std::round(played.end_time * rate.value());
+    std::vector<int64_t> past;
+    for (const auto& [frame, time] : frames)
+        if (double(frame) > last) past.push_back(frame);
+    if (!past.empty())
+        diagnostics.report(Code::FRAMES_PAST, Location{}, frame_ranges(std::move(past)), first,
+                           last);
 }
 
 }  // namespace kinora

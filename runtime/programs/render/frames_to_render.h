@@ -2,19 +2,25 @@
 // times.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "runtime/programs/render/options.h"
+#include "runtime/programs/render/run_report.h"
 
 namespace kinora {
 
 // Frames and their times, seconds: --time, --frames, a turn of the turntable, or all from `start`
 // to `end` seconds. Nothing, with a message on stderr, where they are too many or -o has one name
 // for several.
-std::optional<std::vector<std::pair<int64_t, double>>> frames_to_render(
-    const RenderOptions& options, FrameRate rate, double start, double end);
+std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRate rate,
+                                           double start, double end);
+
+// The middle frame of all that the scene plays, behind the one before it, whatever part of them is
+// rendered. Nothing where they are too many to say.
+FrameTimes middle_of_shot(const RenderOptions& options, FrameRate rate, double start, double end);
+
+// One finding where --frames or --time name frames past the range that the scene plays.
+void report_past(const RenderOptions& options, FrameRate rate, const Scene& scene,
+                 const FrameTimes& frames, Diagnostics& diagnostics);
 
 }  // namespace kinora

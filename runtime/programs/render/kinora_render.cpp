@@ -30,6 +30,7 @@
 #include "runtime/programs/render/frame_writer.h"
 #include "runtime/programs/render/frames_to_render.h"
 #include "runtime/programs/render/options.h"
+#include "runtime/programs/render/run_report.h"
 #include "runtime/programs/render/stats.h"
 #include "runtime/programs/render/targeted.h"
 #include "runtime/programs/tradeoff/asserts.h"
@@ -72,6 +73,7 @@ class Render {
         printer_.summarize();
         if (code == kExitOk) code = printer_.exit_code(result());
         printer_.summarize();
+        tell_frames();
         return code;
     }
 
@@ -95,7 +97,7 @@ class Render {
             print_stats(options_,
                         {load_ms_, build_ms_, first_ray_ms_, built_.scene->dice,
                          built_.scene->textures ? built_.scene->textures->decoded_bytes() : 0},
-                        records_);
+                        list_, records_);
         return code;
     }
 
@@ -104,10 +106,16 @@ class Render {
     void dump() const;
     void print_explained() const;
     int frames();
+    bool list_frames();
+    bool all_frames();
+    int write_sheet();
+    int look_again(int code);
+    void tell_frames() const;
     int tradeoff();
     std::string scene_fingerprint() const;
     void tell_target(const std::string& text) const;
-    int choose_settings_for_target(const std::vector<std::pair<int64_t, double>>& frames);
+    int choose_settings_for_target();
+    FrameTimes frames_to_probe() const;
     bool choose_samples(int64_t frame, double time, const raytrace::Progress& progress);
     int report_unreadable() const;
     int report_unwritable(const std::string& file, const std::string& error, int number);
@@ -133,7 +141,8 @@ class Render {
     raytrace::Film film_, spare_film_;
     ProgressReport progress_;
     ContactSheet sheet_;
-    std::vector<FrameRecord> records_;
+    FrameTimes list_;                   // the frames to render
+    std::vector<FrameRecord> records_;  // of those that were begun
     FrameWriter writer_;
     BandWriter bands_;
     FrameCodes codes_{options_.keep_going};
@@ -234,9 +243,11 @@ int Render::ready_folders() {
                                           : refuse_unwritable(options_.contact_sheet);
 }
 
-// Whether the file is that picture already; the contact sheet shows it, too.
+// Whether the file is that picture already; the contact sheet shows it, too. A picture that lacked
+// an asset when it was made has no checksum.
 bool Render::keep_existing(const std::string& file, const std::string& print) {
     if (read_image_text(file, "kinora/fingerprint") != print) return false;
+    if (!has_intact_pixels(file)) return false;
     if (options_.contact_sheet.empty()) return true;
     std::optional<Image8> image = read_image(file, options_.color);
     if (image) sheet_.add(*image);
@@ -255,7 +266,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     bool wants_file = !record.file.empty();
     if (wants_file && options_.skip_existing) end_write();  // pictures of a sheet come in order
     if (wants_file && options_.skip_existing && keep_existing(record.file, print)) {
-        record.skipped = true;
+        record.state = FrameState::Kept;
         progress_.frame_skipped(frame, index, record.file);
         return kExitOk;
     }
@@ -269,13 +280,14 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     raytrace::Progress progress(on_tile);
     if (first_ray_ms_ == 0) first_ray_ms_ = since_start_.ms();
     ptrdiff_t unwritten = unwritable();
-    WrittenFrame to_write{
-        .record = number,
-        .file = record.file,
-        .color = options_.color,
-        .depth = options_.quality.depth,
-        .texts = {{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}},
-        .film = {}};
+    WrittenFrame to_write{.record = number,
+                          .file = record.file,
+                          .color = options_.color,
+                          .depth = options_.quality.depth,
+                          .texts = {{"Software", "kinora " KINORA_VERSION},
+                                    {"kinora/fingerprint", print},
+                                    {kChecksumText, ""}},
+                          .film = {}};
     const bool in_bands = settings_.band_rows > 0;
     if (in_bands) bands_.start(to_write, settings_.height);
     bool whole =
@@ -292,6 +304,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (targeted_) targeted_->took(record.samples, record.stats.total);
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
     if (wants_file && !in_bands) {
+        if (printer_.misses_assets()) to_write.texts.pop_back();
         to_write.film = std::exchange(film_, std::move(spare_film_));
         writer_.start(std::move(to_write), thread_count() > 1);
         if (thread_count() == 1) end_write();
@@ -299,6 +312,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
         Stopwatch watch;
         if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
         record.write_ms += watch.ms();
+        record.state = FrameState::Done;
         progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
     }
     return baked ? kExitOk : kExitSomeFailed;
@@ -306,7 +320,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
 
 // Of a frame in bands: its file, if all of them came.
 int Render::end_bands(FrameRecord& record, bool whole) {
-    const WrittenFrame written = bands_.finish(whole);
+    const WrittenFrame written = bands_.finish(whole, !printer_.misses_assets());
     record.write_ms = written.ms;
     if (written.error.empty()) return kExitOk;
     return report_unwritable(written.file, written.error, written.number);
@@ -318,11 +332,13 @@ void Render::end_write() {
     if (!written) return;
     FrameRecord& record = records_[written->record];
     if (!written->error.empty()) {
+        record.state = FrameState::Failed;
         codes_.go_on_after(report_unwritable(written->file, written->error, written->number));
     } else {
         Stopwatch watch;
         if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(written->film, options_.color));
         record.write_ms = written->ms + watch.ms();
+        if (record.state == FrameState::Aborted) record.state = FrameState::Done;
         progress_.frame_done(record.frame, record.index, record.file,
                              record.stats.total + record.write_ms);
     }
@@ -374,15 +390,22 @@ void catch_signals() {
     sigaction(SIGALRM, &action, nullptr);
 }
 
-int Render::frames() {
-    catch_signals();
+bool Render::list_frames() {
     const SceneOptions& played = built_.scene->options;
     auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
-    if (!list) return kExitUsage;
+    if (!list) return false;
+    list_ = std::move(*list);
+    report_past(options_, rate_, *built_.scene, list_, diagnostics_);
+    return true;
+}
+
+int Render::frames() {
+    catch_signals();
+    if (!list_frames()) return kExitUsage;
     if (int code = ready_folders()) return code;
-    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
+    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description, options_.scene);
     if (options_.frame_target.any())
-        if (int code = choose_settings_for_target(*list)) return code;
+        if (int code = choose_settings_for_target()) return code;
     diagnostics_.files.cut_long_lines();
     settings_ = frame_settings(options_, *built_.scene, diagnostics_, &g_signal);
     if (const auto& session = options_.session) {
@@ -397,27 +420,54 @@ int Render::frames() {
             band_rows(settings_.width, settings_.height, settings_.integrator.tile);
         settings_.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };
     }
-    progress_ = ProgressReport(options_.progress, list->size());
-    for (size_t i = 0; i < list->size(); ++i) {
-        const int code = one_frame((*list)[i].first, (*list)[i].second, i);
-        if (code != kExitOk || i + 1 == list->size()) end_write();
-        if (g_signal && code != kExitOk) {
-            progress_.clear();
-            return code;
-        }
-        if (!codes_.go_on_after(code)) return codes_.code();
-    }
+    progress_ = ProgressReport(options_.progress, list_.size());
+    const bool all = all_frames();
     progress_.clear();
-    tell_target(targeted_ ? targeted_->end_text() : "");
-    if (!options_.contact_sheet.empty()) {
-        int number = 0;
-        std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
-        if (!error.empty()) {
-            int code = report_unwritable(options_.contact_sheet, error, number);
-            return codes_.code() == kExitRetry ? codes_.code() : code;
-        }
+    if (all) tell_target(targeted_ ? targeted_->end_text() : "");
+    int code = !all && g_signal ? 128 + g_signal : codes_.code();
+    if (all) code = write_sheet();
+    return look_again(code);
+}
+
+// False where the run ends before its last frame.
+bool Render::all_frames() {
+    for (size_t i = 0; i < list_.size(); ++i) {
+        const int code = one_frame(list_[i].first, list_[i].second, i);
+        const bool stopped = g_signal || codes_.ended();
+        if (code != kExitOk)
+            records_.back().state = stopped ? FrameState::Aborted : FrameState::Failed;
+        if (code != kExitOk || i + 1 == list_.size()) end_write();
+        if (g_signal && code != kExitOk) return false;
+        if (!codes_.go_on_after(code)) return false;
     }
-    return codes_.code();
+    return true;
+}
+
+// The exit code of the run, which the sheet may change.
+int Render::write_sheet() {
+    if (options_.contact_sheet.empty()) return codes_.code();
+    int number = 0;
+    std::string error = write_png(options_.contact_sheet, sheet_.picture(), {}, &number);
+    if (error.empty()) return codes_.code();
+    const int code = report_unwritable(options_.contact_sheet, error, number);
+    return codes_.code() == kExitRetry ? codes_.code() : code;
+}
+
+// A frame that was reported as done may have gone since, alone or with its folder.
+int Render::look_again(int code) {
+    const std::vector<std::string> lost = mark_lost_frames(records_);
+    for (const std::string& file : lost) diagnostics_.report(Code::FRAME_GONE, Location{}, file);
+    flush_findings();
+    const bool gone = !lost.empty() || !folder_is_there(options_.output);
+    const bool worse = code == kExitOk || code == kExitSomeFailed;
+    return worse && gone ? int(kExitUnwritable) : code;
+}
+
+// The last line on stderr. One frame that is there says enough.
+void Render::tell_frames() const {
+    const bool brief = options_.findings.quiet || list_.size() <= 1;
+    if (brief && all_frames_there(list_, records_)) return;
+    std::fprintf(stderr, "%s\n", frames_text(list_, records_).c_str());
 }
 
 void Render::tell_target(const std::string& text) const {
@@ -425,12 +475,25 @@ void Render::tell_target(const std::string& text) const {
         std::fprintf(stderr, "kinora-render: %s\n", text.c_str());
 }
 
+// An error's settings are those of the shot, so that a frame has the same ones in each part of it.
+FrameTimes Render::frames_to_probe() const {
+    if (options_.frame_target.ms > 0) return list_;
+    const SceneOptions& played = built_.scene->options;
+    FrameTimes middle = middle_of_shot(options_, rate_, played.start_time, played.end_time);
+    if (!middle.empty()) return middle;
+    tell_target(target_text(options_.frame_target) +
+                ": the scene plays without end, so the frames given here choose the settings; "
+                "give all frames of the shot, or --quality");
+    return list_;
+}
+
 // Chooses settings and builds the scene with them, where it was built with others.
-int Render::choose_settings_for_target(const std::vector<std::pair<int64_t, double>>& frames) {
+int Render::choose_settings_for_target() {
     std::string why_not;
+    const FrameTimes probed = frames_to_probe();
     auto chosen = choose_settings({.scene = options_,
                                    .imported = *unbuilt_,
-                                   .frames = frames,
+                                   .frames = probed,
                                    .target = options_.frame_target,
                                    .fixed = options_.fixed_settings,
                                    .measured = options_.measured,
@@ -495,16 +558,14 @@ int Render::tradeoff() {
     }
     if (int code = try_tradeoff_folder(options_.tradeoff)) return code;
     catch_signals();
-    const SceneOptions& played = built_.scene->options;
-    auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
-    if (!list) return kExitUsage;
-    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description);
+    if (!list_frames()) return kExitUsage;
+    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description, options_.scene);
     std::string print = scene_fingerprint();
     built_ = {};  // its memory is for the scenes to come
     TradeResults results;
     bool measured = measure_tradeoff({.scene = options_,
                                       .imported = *unbuilt_,
-                                      .frames = std::move(*list),
+                                      .frames = std::exchange(list_, {}),
                                       .fingerprint = std::move(print),
                                       .budget_s = options_.budget,
                                       .tell = !options_.findings.quiet,

@@ -181,7 +181,9 @@ void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
              "(repeatable, as those below)");
     add_list(app, "--param", given.params,
              "MATERIAL.NAME=VALUE: a shader parameter, also of lights: 0.5, 1,0,0 or a text");
-    add_list(app, "--hide", o.hide, "NODE: without its meshes and lights and those below it");
+    add_list(app, "--hide", o.hide,
+             "NODE: without its meshes and lights and those below it; also a default light by its "
+             "name");
     add_list(app, "--only", o.only, "NODE: without the meshes that are not below it");
     app.add_option(
            "--smooth", o.smooth,
@@ -215,7 +217,8 @@ void declare_run(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--explain", o.explain,
                    "[=json]: what is modelled, what is left out and why, on stdout")
         ->check(one_of({"text", "json"}));
-    app.add_option("--progress", given.progress, "bar, lines or none (bar on a terminal)")
+    app.add_option("--progress", given.progress,
+                   "bar, lines or none (bar on a terminal, none with -q)")
         ->check(one_of({"bar", "lines", "none"}));
     auto* list = app.add_option("--list", o.list, fmt::format("{}", fmt::join(list_kinds(), ", ")))
                      ->check(one_of(list_kinds()));
@@ -254,10 +257,12 @@ void interpret_output(const Given& given, RenderOptions& o) {
         throw CLI::ValidationError("--aov", "needs -o FILE.exr: only EXR holds further channels");
     o.stats = !given.stats.empty() && given.stats != "none";
     o.stats_json = given.stats == "json";
-    o.progress = isatty(STDERR_FILENO) ? ProgressStyle::Bar : ProgressStyle::Lines;
+    o.progress = o.findings.quiet        ? ProgressStyle::None
+                 : isatty(STDERR_FILENO) ? ProgressStyle::Bar
+                                         : ProgressStyle::Lines;
     if (given.progress == "bar") o.progress = ProgressStyle::Bar;
     if (given.progress == "lines") o.progress = ProgressStyle::Lines;
-    if (given.progress == "none" || o.findings.quiet) o.progress = ProgressStyle::None;
+    if (given.progress == "none") o.progress = ProgressStyle::None;
 }
 
 // What only cameras that are added obey.

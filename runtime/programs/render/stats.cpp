@@ -74,7 +74,7 @@ void print_text(const RenderOptions& options, const RunRecord& run,
     jit::CacheStats cache = jit::cache_stats();
     const jit::Target& target = target_of(options);
     for (const FrameRecord& r : frames)
-        if (!r.skipped) print_frame(r);
+        if (r.state == FrameState::Done) print_frame(r);
     std::printf(
         "target %s (%d lanes), %d threads; load %.1f ms, build %.1f ms, first ray after %.1f "
         "ms; %zu kernels in %.2f ms, %zu bytes of code; peak memory %.1f MB\n",
@@ -87,11 +87,58 @@ void print_text(const RenderOptions& options, const RunRecord& run,
         std::printf("diced again for %zu frames in %.1f ms\n", frames_again, ms);
 }
 
-void print_json(const RenderOptions& options, const RunRecord& run,
-                const std::vector<FrameRecord>& frames) {
+using Json = nlohmann::ordered_json;
+
+// Of a frame that was rendered and written.
+Json json_of_work(const FrameRecord& r) {
+    const FrameStats& s = r.stats;
+    const Occupancy full = occupancy(s);
+    Json frame = {{"total_ms", s.total}, {"samples", r.samples}};
+    for_each_stage(r, [&](const char* name, double ms) { frame[std::string(name) + "_ms"] = ms; });
+    frame.update({{"displace_ms", s.displace},
+                  {"rays", s.rays},
+                  {"rays_per_pixel", per_pixel(s.rays, r)},
+                  {"shadow_rays", s.shader_rays.shadow_rays},
+                  {"nested_rays", s.shader_rays.rays},
+                  {"camera_occupancy", full.camera},
+                  {"shadow_occupancy", full.shadow},
+                  {"nested_occupancy", full.nested},
+                  {"rays_per_second", double(s.rays) / s.total * 1e3},
+                  {"shading_points", s.shading_points},
+                  {"light_points", s.light_points},
+                  {"vertices", s.vertices},
+                  {"columns", s.columns},
+                  {"points_per_second", double(s.shading_points) / s.total * 1e3},
+                  {"refits", s.refits},
+                  {"rebuilds", s.rebuilds},
+                  {"non_finite", s.non_finite},
+                  {"dice_error", r.dice_error},
+                  {"redice_ms", r.redice_ms}});
+    return frame;
+}
+
+// All frames of the run, those that were not begun too.
+Json json_of_frames(const RenderOptions& options, const FrameTimes& frames,
+                    const std::vector<FrameRecord>& records) {
+    Json rows = Json::array();
+    const OutputName name(options.output);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const FrameRecord* record = i < records.size() ? &records[i] : nullptr;
+        const FrameState state = record ? record->state : FrameState::Aborted;
+        Json row = {{"frame", frames[i].first},
+                    {"file", options.output.empty() ? "" : name.file(frames[i].first)},
+                    {"state", frame_state_name(state)}};
+        if (state == FrameState::Done) row.update(json_of_work(*record));
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+void print_json(const RenderOptions& options, const RunRecord& run, const FrameTimes& frames,
+                const std::vector<FrameRecord>& records) {
     jit::CacheStats cache = jit::cache_stats();
     const jit::Target& target = target_of(options);
-    nlohmann::ordered_json json;
+    Json json;
     json["target"] = target.name;
     json["lanes"] = target.lanes;
     json["threads"] = thread_count();
@@ -107,51 +154,21 @@ void print_json(const RenderOptions& options, const RunRecord& run,
     json["dice_ms"] = run.dice.ms;
     json["dice_triangles"] = run.dice.triangles;
     json["dice_pixels"] = run.dice.pixels;
-    auto [frames_again, again_ms] = rediced(frames);
+    auto [frames_again, again_ms] = rediced(records);
     json["redices"] = frames_again;
     json["redice_ms"] = again_ms;
-    json["frames"] = nlohmann::ordered_json::array();
-    for (const FrameRecord& r : frames) {
-        const FrameStats& s = r.stats;
-        nlohmann::ordered_json frame = {{"frame", r.frame}, {"file", r.file}};
-        if (r.skipped) {
-            frame["skipped"] = true;
-        } else {
-            const Occupancy full = occupancy(s);
-            frame["total_ms"] = s.total;
-            frame["samples"] = r.samples;
-            for_each_stage(
-                r, [&](const char* name, double ms) { frame[std::string(name) + "_ms"] = ms; });
-            frame.update({{"displace_ms", s.displace},
-                          {"rays", s.rays},
-                          {"rays_per_pixel", per_pixel(s.rays, r)},
-                          {"shadow_rays", s.shader_rays.shadow_rays},
-                          {"nested_rays", s.shader_rays.rays},
-                          {"camera_occupancy", full.camera},
-                          {"shadow_occupancy", full.shadow},
-                          {"nested_occupancy", full.nested},
-                          {"rays_per_second", double(s.rays) / s.total * 1e3},
-                          {"shading_points", s.shading_points},
-                          {"light_points", s.light_points},
-                          {"vertices", s.vertices},
-                          {"columns", s.columns},
-                          {"points_per_second", double(s.shading_points) / s.total * 1e3},
-                          {"refits", s.refits},
-                          {"rebuilds", s.rebuilds},
-                          {"non_finite", s.non_finite},
-                          {"dice_error", r.dice_error},
-                          {"redice_ms", r.redice_ms}});
-        }
-        json["frames"].push_back(std::move(frame));
-    }
+    json["frames"] = json_of_frames(options, frames, records);
     std::printf("%s\n", json.dump(2).c_str());
 }
 
 }  // namespace
 
-void print_stats(const RenderOptions& options, const RunRecord& run,
-                 const std::vector<FrameRecord>& frames) {
-    (options.stats_json ? print_json : print_text)(options, run, frames);
+void print_stats(const RenderOptions& options, const RunRecord& run, const FrameTimes& frames,
+                 const std::vector<FrameRecord>& records) {
+    if (options.stats_json)
+        print_json(options, run, frames, records);
+    else
+        print_text(options, run, records);
 }
 
 }  // namespace kinora

@@ -2,26 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "runtime/frame/frame.h"
 #include "runtime/programs/render/options.h"
+#include "runtime/programs/render/run_report.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
-
-struct FrameRecord {
-    int64_t frame;
-    size_t index = 0;  // among the frames of the run
-    std::string file;
-    FrameStats stats;
-    size_t pixels = 0;
-    int samples = 0;  // per pixel
-    double write_ms = 0;
-    double dice_error = 0;  // with the scene as loaded
-    double redice_ms = 0;   // 0: that one was fine enough
-    bool skipped = false;
-};
 
 // Times in ms from the start of the program's work.
 struct RunRecord {
@@ -30,8 +17,8 @@ struct RunRecord {
     uint64_t texture_bytes = 0;  // of pictures that were decoded
 };
 
-// To stdout, as text or JSON.
-void print_stats(const RenderOptions& options, const RunRecord& run,
-                 const std::vector<FrameRecord>& frames);
+// To stdout, as text or JSON. Of `frames`, the records are the first.
+void print_stats(const RenderOptions& options, const RunRecord& run, const FrameTimes& frames,
+                 const std::vector<FrameRecord>& records);
 
 }  // namespace kinora

@@ -32,7 +32,25 @@ TEST(FrameList, ReadsEverySpellingOfARange) {
     for (const char* text : {"4-6", "4..6", "4:6", "4,5,6", "4-5,6", "4-6x1"})
         EXPECT_EQ(frames(text), all) << text;
     EXPECT_EQ(frames("300"), Frames{300});
-    EXPECT_EQ(frames("1-5x2,300,3-1x-1"), (Frames{1, 3, 5, 300, 3, 2, 1}));
+    EXPECT_EQ(frames("1-5x2,300,8-6x-1"), (Frames{1, 3, 5, 300, 8, 7, 6}));
+}
+
+TEST(FrameList, HasEachFrameOnceAtItsFirstPlace) {
+    EXPECT_EQ(frames("1-3,2-4"), (Frames{1, 2, 3, 4}));
+    EXPECT_EQ(frames("1-5x2,300,3-1x-1,300"), (Frames{1, 3, 5, 300, 2}));
+    EXPECT_EQ(frames("7,7,7"), Frames{7});
+}
+
+TEST(FrameList, IsWrittenAsRanges) {
+    EXPECT_EQ(frame_ranges({}), "");
+    EXPECT_EQ(frame_ranges({7, 31}), "7, 31");
+    EXPECT_EQ(frame_ranges({34, 7, 31, 33, 32}), "7, 31-34");
+    EXPECT_EQ(frame_ranges({-3, -2, -1, 0}), "-3-0");
+    for (const char* text : {"1-240", "5,9,10", "-5--3,0,12"}) {
+        std::string ranges = frame_ranges(frames(text));
+        std::erase(ranges, ' ');
+        EXPECT_EQ(frames(ranges), frames(text)) << text;
+    }
 }
 
 TEST(FrameList, CountsDownWhenTheEndIsBeforeTheStart) {

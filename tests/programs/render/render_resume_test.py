@@ -1,14 +1,20 @@
 """tests/programs/render/render_resume_test.py: a render that is stopped loses nothing but time."""
+import json
 import os
 import random
+import shutil
 import signal
+import struct
 import subprocess
 import time
 from pathlib import Path
 import sys
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from programs import MATTE, ProgramTest, command, main, render
+from programs import MATTE, SCENES, SOURCE, ProgramTest, command, main, render
+
+sys.path.insert(0, str(SOURCE / "scripts/sheet"))
+import png  # noqa: E402
 
 RAYS = MATTE.parent / "rays.dae"
 SMALL = ("--size", "64x48", "--spp", "4", "--threads", "1", "-q")
@@ -75,6 +81,80 @@ class Resume(ProgramTest):
         scene.write_text(MATTE.read_text().replace("</COLLADA>", "<!-- x --></COLLADA>"))
         self.expect(render(*words), 0)
         self.assertNotEqual(self.stamps(), second)
+
+    def stamped(self, name, change):
+        """Changes a file as `change` does its bytes, and leaves its size and time of change."""
+        file = self.folder / name
+        status, before = file.stat(), file.read_bytes()
+        after = change(before)
+        self.assertEqual((len(after), after != before), (len(before), True))
+        file.write_bytes(after)
+        os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
+
+    def renders_again(self, scene, *words):
+        """Renders with --skip-existing: whether the picture was made anew."""
+        before = self.stamps()
+        self.expect(render(scene, "-o", self.folder / "a.exr", "--size", "24x16", "--spp", "1", "--skip-existing",
+                           "--frames", "0", *words), 0)
+        return self.stamps() != before
+
+    def test_skip_existing_sees_the_content_of_textures_whatever_their_size_and_time(self):
+        for row, colour in (("wall.png", 255), ("other.png", 100)):
+            png.write(self.folder / row, 4, 4, [bytes([colour, 0, 0]) * 4] * 4)
+        shader = self.write("s.sl", 'surface s(string map = "";) { Ci = texture(map); Oi = 1; }')
+        words = ("--shader", f"*={shader}", "--param", f"*.map={self.folder / 'wall.png'}")
+        scene = self.write("scene.dae", MATTE.read_text())
+        self.assertTrue(self.renders_again(scene, *words))
+        self.assertFalse(self.renders_again(scene, *words))
+        other = (self.folder / "other.png").read_bytes()
+        self.stamped("wall.png", lambda before: other)
+        self.assertTrue(self.renders_again(scene, *words))
+        os.utime(self.folder / "wall.png", (1, 1))  # a copy that is the same
+        self.assertFalse(self.renders_again(scene, *words))
+
+    def test_skip_existing_sees_the_content_of_linked_documents_and_buffers(self):
+        glb = SCENES.parent / "gltf/bender.glb"
+        shutil.copy(glb, self.folder / "a.glb")
+        self.assertTrue(self.renders_again(self.folder / "a.glb"))
+        self.assertFalse(self.renders_again(self.folder / "a.glb"))
+        self.stamped("a.glb", lambda bytes: bytes[:-2] + b"\1\2")
+        self.assertTrue(self.renders_again(self.folder / "a.glb"))
+        triangle = struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0, 1, 0)
+        (self.folder / "a.bin").write_bytes(triangle)
+        gltf = self.write("a.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "buffers": [{"uri": "a.bin", "byteLength": 36}], "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0],
+                           "max": [1, 1, 0]}]}))
+        self.assertTrue(self.renders_again(gltf))
+        self.assertFalse(self.renders_again(gltf))
+        self.stamped("a.bin", lambda bytes: struct.pack("<9f", -1, -1, 0, 1, -1, 0, 0.5, 1, 0))
+        self.assertTrue(self.renders_again(gltf))
+
+    def test_a_picture_made_without_an_asset_is_never_kept(self):
+        shader = self.write("s.sl", 'surface s() { Ci = texture("nothere.png"); Oi = 1; }')
+        scene = self.write("scene.dae", MATTE.read_text())
+        words = ("--shader", f"*={shader}")
+        for _ in range(3):
+            self.assertTrue(self.renders_again(scene, *words))
+        png.write(self.folder / "nothere.png", 4, 4, [bytes([255, 0, 0]) * 4] * 4)
+        self.assertTrue(self.renders_again(scene, *words))
+        self.assertFalse(self.renders_again(scene, *words))
+
+    def test_a_picture_whose_bytes_have_changed_is_not_kept(self):
+        for kind in ("png", "exr"):
+            words = (MATTE, "-o", self.folder / f"f.##.{kind}", "--frames", "1-2", "--size", "64x48", "--spp", "1", "-q")
+            self.expect(render(*words), 0)
+            wanted = self.pictures()
+            self.expect(render(*words, "--skip-existing"), 0)
+            damaged = bytearray(wanted[f"f.02.{kind}"])
+            for at in range(len(damaged) // 2, len(damaged) // 2 + 9):
+                damaged[at] ^= 0xff
+            (self.folder / f"f.02.{kind}").write_bytes(damaged)
+            result = render(*words, "--skip-existing", "--stats=json")
+            self.assertEqual([f["state"] for f in json.loads(result.out)["frames"]], ["kept", "done"])
+            self.assertEqual(self.pictures(), wanted)
 
     def test_signals_drop_the_frame_and_leave_no_temporary_file(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "runtime/base/files/temporary_file.h"
 
 namespace kinora::play {
 
@@ -58,24 +59,16 @@ Layout read_layout(const std::string& file) {
 
 bool write_layout(const std::string& file, const Layout& layout) {
     if (file.empty()) return false;
-    std::error_code error;
-    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), error);
-    const std::string temporary = file + ".new";
-    {
-        std::ofstream out(temporary);
-        out << fmt::format("width {}\nheight {}\nmaximized {:d}\n", layout.width, layout.height,
-                           layout.maximized);
-        if (layout.scale > 0) out << fmt::format("scale {:.3g}\n", layout.scale);
-        for (size_t i = 0; i < kAreaCount; ++i) {
-            out << fmt::format("{} {:.0f}\n", kAreas[i], layout.sizes[i]);
-            if (!layout.front[i].empty())
-                out << fmt::format("{}_front {}\n", kAreas[i], layout.front[i]);
-        }
-        out << fmt::format("panels {}\n", fmt::join(layout.panels, " "));
-        if (!out.flush()) return false;
+    std::string text = fmt::format("width {}\nheight {}\nmaximized {:d}\n", layout.width,
+                                   layout.height, layout.maximized);
+    if (layout.scale > 0) text += fmt::format("scale {:.3g}\n", layout.scale);
+    for (size_t i = 0; i < kAreaCount; ++i) {
+        text += fmt::format("{} {:.0f}\n", kAreas[i], layout.sizes[i]);
+        if (!layout.front[i].empty())
+            text += fmt::format("{}_front {}\n", kAreas[i], layout.front[i]);
     }
-    std::filesystem::rename(temporary, file, error);
-    return !error;
+    text += fmt::format("panels {}\n", fmt::join(layout.panels, " "));
+    return make_folder_of(file) == 0 && write_whole_file(file, text) == 0;
 }
 
 }  // namespace kinora::play
