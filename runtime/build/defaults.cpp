@@ -18,7 +18,7 @@ uint32_t append(std::vector<double>& values, std::initializer_list<double> numbe
 
 NodeDefinition default_light_node(std::vector<double>& values) {
     NodeDefinition node;
-    node.id = node.name = "default light";
+    node.id = node.name = kDefaultLightNode;
     // Turned left and up from the camera, so that it shines along -z over its left shoulder.
     node.transforms.push_back({TransformKind::Rotate, append(values, {0, 1, 0, -35})});
     node.transforms.push_back({TransformKind::Rotate, append(values, {1, 0, 0, -35})});
@@ -32,9 +32,9 @@ std::vector<LightDefinition> default_lights(std::vector<double>& values) {
         double strength;
         bool shadows;
     };
-    static constexpr Row kRows[] = {{"default key light", "collada_directional", 0.85, true},
-                                    {"default fill light", "default_fill", 0.22, false},
-                                    {"default rim light", "default_rim", 0.35, false},
+    static constexpr Row kRows[] = {{kKeyLight, "collada_directional", 0.85, true},
+                                    {kFillLight, "default_fill", 0.22, false},
+                                    {kRimLight, "default_rim", 0.35, false},
                                     {kGreyWorld, kGreyWorldShader, kGreyWorldLight, false}};
     std::vector<LightDefinition> lights;
     for (const Row& row : kRows) {

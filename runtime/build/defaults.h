@@ -2,6 +2,7 @@
 // (docs/lights.md#defaults).
 #pragma once
 
+#include "runtime/description/default_lights.h"
 #include "runtime/description/scene_description.h"
 
 namespace kinora {
@@ -9,7 +10,6 @@ namespace kinora {
 // Three lights on a node below the camera's: a key light from over its left shoulder that casts
 // shadows; a fill light that reaches all the camera sees, and a rim light from behind, both without
 // shadows and highlights. Behind them kGreyWorld, for what Blender's lamps leave dark.
-inline constexpr const char* kGreyWorld = "grey world";
 inline constexpr const char* kGreyWorldShader = "grey_world";
 inline constexpr float kGreyWorldLight = 0.05f;  // the color of Blender's world, if nobody sets it
 NodeDefinition default_light_node(std::vector<double>& values);

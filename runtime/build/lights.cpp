@@ -61,16 +61,23 @@ void add_default_light(Scene& scene, LightDefinition definition, uint32_t node) 
     scene.added.push_back(description.lights.back().name);
 }
 
-// The default lights, which options may have changed.
+bool is_hidden(const SceneDescription& description, std::string_view light) {
+    return std::ranges::count(description.hidden_default_lights, light) > 0;
+}
+
+// The default lights but for those that are hidden. Options may have changed them.
 std::vector<LightDefinition> lights_to_add(Scene& scene) {
     SceneDescription& description = *scene.description;
-    if (!description.default_lights.empty()) return description.default_lights;
-    return default_lights(description.values);
+    std::vector<LightDefinition> lights = description.default_lights;
+    if (lights.empty()) lights = default_lights(description.values);
+    std::erase_if(lights, [&](const auto& light) { return is_hidden(description, light.name); });
+    return lights;
 }
 
 // Blender shows what its lamps leave dark under its grey world, which its exporters leave out.
 void add_grey_world(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& diagnostics) {
     if (!scene.options.decode_textures) return;  // --color legacy: as the file says
+    if (is_hidden(*scene.description, kGreyWorld)) return;
     auto lamp = std::ranges::find_if(scene.lights, [&](const LightSource& light) {
         return scene.description->lights[light.definition].blender;
     });
@@ -83,6 +90,11 @@ void add_grey_world(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics&
 }
 
 }  // namespace
+
+bool has_default_lights(const SceneDescription& description) {
+    return !is_hidden(description, kKeyLight) || !is_hidden(description, kFillLight) ||
+           !is_hidden(description, kRimLight);
+}
 
 bool add_default_lights(Scene& scene, Diagnostics& diagnostics) {
     std::erase_if(scene.lights, [&](const LightSource& light) {
@@ -116,6 +128,7 @@ void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
         return;
     }
     if (wanted == LightSet::Auto && needs_no_light(scene, uses)) return;
+    if (!has_default_lights(*scene.description)) return;
     // Before NodeTree::add, which takes the description's values over into the scene.
     std::vector<LightDefinition> lights = lights_to_add(scene);
     NodeDefinition carrier = default_light_node(scene.description->values);

@@ -15,6 +15,9 @@ namespace kinora {
 void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
                 Diagnostics& diagnostics);
 
+// Whether some of the default lights but the grey world are not hidden.
+bool has_default_lights(const SceneDescription& description);
+
 // Adds the default lights to those of a scene that is built, in place of the grey world. Writes
 // Scene::lights, added and options.lights. False when a shader cannot be compiled.
 bool add_default_lights(Scene& scene, Diagnostics& diagnostics);

@@ -69,7 +69,8 @@ bool is_black(Scene& scene, Diagnostics& diagnostics) {
 }  // namespace
 
 bool light_black_scene(Scene& scene, Diagnostics& diagnostics) {
-    bool asked = scene.watch_dark > 0 && scene.options.decode_textures && lights_of_formats(scene);
+    bool asked = scene.watch_dark > 0 && scene.options.decode_textures &&
+                 has_default_lights(*scene.description) && lights_of_formats(scene);
     if (!asked || !is_black(scene, diagnostics)) return true;
     const LightSource& first = scene.lights.front();
     diagnostics.report(Code::LIGHTS_BLACK, scene.description->lights[first.definition].where);

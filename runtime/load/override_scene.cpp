@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "runtime/base/regular_file.h"
+#include "runtime/description/default_lights.h"
 #include "runtime/description/findings.h"
 #include "runtime/description/texture_name.h"
 #include "runtime/profile_rsl/effect_shaders.h"
@@ -208,6 +209,20 @@ bool override_param(SceneDescription& description, const std::string& target,
     return change.found();
 }
 
+namespace {
+
+// The default lights that the glob names; the name of their node stands for the three on it.
+std::vector<std::string> matching_default_lights(const std::string& pattern) {
+    const bool node = glob_matches(pattern, kDefaultLightNode, kDefaultLightNode);
+    std::vector<std::string> names;
+    for (const char* name : {kKeyLight, kFillLight, kRimLight, kGreyWorld})
+        if ((node && std::string_view(name) != kGreyWorld) || glob_matches(pattern, name, name))
+            names.push_back(name);
+    return names;
+}
+
+}  // namespace
+
 bool override_visibility(SceneDescription& description, const std::vector<std::string>& hide,
                          const std::vector<std::string>& only, Diagnostics& diagnostics) {
     bool all_known = true;
@@ -218,6 +233,11 @@ bool override_visibility(SceneDescription& description, const std::vector<std::s
                 if (!glob_matches(pattern, node.id, node.name)) continue;
                 matched = node.*flag = true;
             }
+            if (flag == &NodeDefinition::hidden)
+                for (std::string& light : matching_default_lights(pattern)) {
+                    description.hidden_default_lights.push_back(std::move(light));
+                    matched = true;
+                }
             if (!matched) diagnostics.report(Code::NODE_UNKNOWN, Location{}, pattern);
             all_known &= matched;
         }

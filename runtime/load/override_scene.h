@@ -26,7 +26,8 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text);
 bool override_param(SceneDescription& description, const std::string& target,
                     const std::string& value, Diagnostics& diagnostics);
 
-// --hide NODE: what hangs on these nodes and below them (meshes, lights) is not there.
+// --hide NODE: what hangs on these nodes and below them (meshes, lights) is not there. Default
+// lights have names, too (description/default_lights.h).
 // --only NODE: meshes elsewhere are not there; lights and cameras stay. False after an error.
 bool override_visibility(SceneDescription& description, const std::vector<std::string>& hide,
                          const std::vector<std::string>& only, Diagnostics& diagnostics);

@@ -169,6 +169,44 @@ class Range(SceneTest):
             self.assertNotIn(self.SAID, self.render(text, *words, out="f.####.png").err, words)
 
 
+class DefaultLights(SceneTest):
+    TEXT = document(CAMERA + LAMBERT + geometries(square()), EYE + place())
+
+    def lights(self, text, *words):
+        listed = self.expect(render(self.write("scene.dae", text), "--list", "lights", *words), 0).out
+        return [name for name in ("key", "fill", "rim") if f"default {name} light" in listed]
+
+    def test_can_be_hidden_by_name(self):
+        self.assertEqual(self.lights(self.TEXT), ["key", "fill", "rim"])
+        for pattern, left in (("default key light", ["fill", "rim"]), ("*rim*", ["key", "fill"]),
+                              ("default light", []), ("default*", [])):
+            self.assertEqual(self.lights(self.TEXT, "--hide", pattern), left, pattern)
+        self.assertEqual(self.lights(self.TEXT, "--hide", "*fill light", "--hide", "default key light"), ["rim"])
+
+    def test_the_picture_is_without_their_light(self):
+        self.render(self.TEXT)
+        whole = self.pixel()[0]
+        parts = []
+        for others in (("fill", "rim"), ("key", "rim"), ("key", "fill")):
+            self.render(self.TEXT, *(word for name in others for word in ("--hide", f"default {name} light")))
+            parts.append(self.pixel()[0])
+        self.assertLess(max(parts), whole)
+        self.assertAlmostEqual(sum(parts), whole, delta=3)  # light adds up; bytes are rounded
+        result = self.render(self.TEXT, "--hide", "default*", "--param", "default key light.intensity=2")
+        self.assertEqual(self.pixel(), (0, 0, 0), result)
+
+    def test_names_that_a_scene_does_not_add_are_no_error(self):
+        lit = self.TEXT.replace("<library_visual", '<library_lights><light id="l"><technique_common><ambient><color>1 1 1'
+                                '</color></ambient><directional><color>1 1 1</color></directional></technique_common>'
+                                "</light></library_lights><library_visual").replace("<ambient><color>1 1 1</color></ambient>", "")
+        lit = lit.replace('<node id="eye">', '<node id="sun"><instance_light url="#l"/></node><node id="eye">')
+        self.render(lit)
+        before = self.bytes_of("a.png")
+        self.render(lit, "--hide", "default key light", "--hide", "grey world")
+        self.assertEqual(self.bytes_of("a.png"), before)
+        self.render(lit, "--hide", "default lamp", code=2)
+
+
 def may_unshare(*words):
     """Whether this machine can be made to look like several."""
     if not shutil.which("unshare"):
