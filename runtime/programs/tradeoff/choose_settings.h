@@ -14,8 +14,10 @@ namespace kinora {
 
 struct SettingsRequest {
     const SceneRequest& scene;
-    const ImportedScene& imported;                     // not yet built
-    std::vector<std::pair<int64_t, double>> frames{};  // of the shot: number, seconds
+    const ImportedScene& imported;  // not yet built
+    // Number and seconds; the middle one is probed. For a time: those to render. For an error: the
+    // same for all parts of the shot.
+    std::vector<std::pair<int64_t, double>> frames{};
     FrameTarget target{};
     bool fixed = false;         // the command line says the settings: samples alone are chosen
     std::string measured{};     // tradeoff.json or its folder; "": none
@@ -32,8 +34,8 @@ struct ChosenSettings {
     std::string said{};       // what a user is told of it besides
 };
 
-// Probes the presets, or takes a row of what was measured. Probing ends after 5 % of the time that
-// the shot may take, or 20 s if that is more. Nothing, with the reason: no settings reach the
+// Probes the presets, or takes a row of what was measured. For a time, probing ends after 5 % of
+// what the shot may take, or 20 s if that is more. Nothing, with the reason: no settings reach the
 // target, the scene gives no picture, or it was stopped.
 std::optional<ChosenSettings> choose_settings(const SettingsRequest& request,
                                               Diagnostics& diagnostics, std::string& why_not);

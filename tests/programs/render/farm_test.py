@@ -207,6 +207,26 @@ class DefaultLights(SceneTest):
         self.render(lit, "--hide", "default lamp", code=2)
 
 
+class Shards(SceneTest):
+    # A displaced square comes into view at 0.5 s: `draft` bends its normals alone.
+    CODE = "displacement d() { P += 0.6 * sin(20 * u) * sin(17 * v) * vector(0, 0, 1); N = calculatenormal(P); }"
+
+    def test_settings_for_an_error_are_those_of_the_shot(self):
+        text = rsl("surface s() { Ci = normalize(N) . normalize(I); Ci *= Ci; Oi = 1; }" + self.CODE)
+        text = text.replace("</pass>", '</pass><pass><shader stage="DISPLACEMENT"/></pass>')
+        moved = animation("a", "node/t.X", [0, 0.5, 1], [-50, 0, 0], interpolation="STEP")
+        scene = self.write("scene.dae", document(CAMERA + text + geometries(square()) + animations(moved),
+                                                 EYE + place('<translate sid="t">0 0 0</translate>')))
+        said = {}
+        for frames in ("0-4x2", "14-24x10", "24"):
+            folder = self.folder / frames
+            result = render(scene, "-o", folder / "f.##.png", "--frames", frames, "--size", "24x24", "--camera", "cam",
+                            "--target-error", "rmse:0.05", "--threads", "2", "--progress", "none")
+            said[frames] = re.search(r"settings of .*", self.expect(result, 0).err).group()
+        self.assertEqual(len(set(said.values())), 1, said)
+        self.assertEqual((self.folder / "14-24x10/f.24.png").read_bytes(), (self.folder / "24/f.24.png").read_bytes())
+
+
 def may_unshare(*words):
     """Whether this machine can be made to look like several."""
     if not shutil.which("unshare"):
