@@ -424,9 +424,9 @@ int Render::frames() {
     const bool all = all_frames();
     progress_.clear();
     if (all) tell_target(targeted_ ? targeted_->end_text() : "");
-    int code = !all && g_signal ? 128 + g_signal : codes_.code();
-    if (all) code = write_sheet();
-    return look_again(code);
+    const int code = all ? write_sheet() : codes_.code();
+    const bool stopped = g_signal && (!all || code != kExitOk);
+    return look_again(stopped ? 128 + g_signal : code);
 }
 
 // False where the run ends before its last frame.
