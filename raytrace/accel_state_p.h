@@ -29,18 +29,22 @@ struct InstancedShape {
     bool dynamic = false;
     EmbreeScene scene;
     EmbreeMesh mesh;
+    std::vector<uint32_t> kept;  // without_untraceable() of the vertices that the tree was built of
+    vec3 low{0.0f}, high{0.0f};  // the scene's box; low above high: nothing in it is traceable
 };
 
 struct GeometryState {
     Geometry seen;          // as given to the last update
-    bool usable = false;    // false: left out, an issue says why
-    bool attached = false;  // Instanced: in the top scene (its matrix has an inverse)
+    bool sound = false;     // false: left out, an issue says why
+    bool attached = false;  // in the top scene. Instanced: its matrix has an inverse
     uint32_t slot = 0;
     // Deforming
+    std::vector<uint32_t> kept;  // without_untraceable(), as Embree has it; the mesh reads it
     EmbreeMesh mesh;
     BuildQuality quality = BuildQuality::Refit;
     double area_at_build = 0;
     int calm_updates = 0;  // LOW rebuilds in a row that would have needed none
+    std::span<const uint32_t> triangles() const { return kept.empty() ? seen.triangles : kept; }
     // Instanced
     uint32_t shape = kNone;
     EmbreeInstance instance;

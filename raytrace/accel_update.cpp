@@ -71,7 +71,7 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
     s.rows.resize(geometry.size());
     for (size_t i = 0; i < geometry.size(); ++i) {
         s.rows[i].seen = geometry[i];
-        s.rows[i].usable = sound(geometry[i]);
+        s.rows[i].sound = sound(geometry[i]);
         s.any_hidden_backfaces |= geometry[i].hide_backfaces;
     }
     add_static_groups();
@@ -93,7 +93,7 @@ void Updater::add_static_groups() {
     for (uint32_t i = 0; i < s.rows.size(); ++i) {
         const GeometryState& row = s.rows[i];
         const Geometry& g = row.seen;
-        if (g.kind != GeometryKind::Static || !row.usable) continue;
+        if (g.kind != GeometryKind::Static || !row.sound) continue;
         watch(g);
         StaticGroup*& group = groups[{g.opaque, g.hide_backfaces}];
         if (!group) {
@@ -109,7 +109,10 @@ void Updater::add_static_groups() {
         if (is_new)
             group->positions.insert(group->positions.end(), g.positions.begin(), g.positions.end());
         const size_t corners = g.triangles.size() / 3 * 3;
-        for (size_t k = 0; k < corners; ++k) group->triangles.push_back(base + g.triangles[k]);
+        const std::vector<uint32_t> kept = without_untraceable(g.positions, g.triangles);
+        const std::span<const uint32_t> triangles = kept.empty() ? g.triangles : kept;
+        for (size_t k = 0; k < corners; ++k)
+            group->triangles.push_back(triangles[k] == kNone ? kNone : base + triangles[k]);
         group->owner.insert(group->owner.end(), corners / 3, i);
     }
     for (auto& group : s.groups) {
@@ -126,21 +129,18 @@ void Updater::add_deforming(uint32_t index) {
     GeometryState& row = s.rows[index];
     row.slot = uint32_t(s.map.slots.size());
     s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
-    if (!row.usable) return;
-    rebuild(row, deforming_quality(), watch(row.seen).sum);
-    if (!has_first_pose(row.seen)) return;
+    find_traceable(row);
+    if (!build_deforming(row) || !has_first_pose(row)) return;
     row.mesh.vertices_moved_to(row.seen.built_from);
     in_first_pose_.push_back(index);
 }
 
-// Triangles that a tree is built without would never come back.
-bool Updater::has_first_pose(const Geometry& g) const {
-    return deforming_quality() == BuildQuality::Refit && !g.built_from.empty() &&
+// Triangles that a tree is built without would never come back, so all must be traceable in both.
+bool Updater::has_first_pose(const GeometryState& row) const {
+    const Geometry& g = row.seen;
+    return deforming_quality() == BuildQuality::Refit && row.kept.empty() &&
            g.built_from.size() == g.positions.size() &&
-           std::ranges::all_of(g.built_from, [](const vec4& p) {
-               return std::abs(p.x) <= kLargest && std::abs(p.y) <= kLargest &&
-                      std::abs(p.z) <= kLargest;
-           });
+           without_untraceable(g.built_from, g.triangles).empty();
 }
 
 void Updater::leave_first_poses() {
@@ -153,7 +153,7 @@ void Updater::leave_first_poses() {
 void Updater::rebuild(GeometryState& row, BuildQuality quality, double area) {
     const Geometry& g = row.seen;
     if (row.attached) s.top.detach(row.slot);
-    row.mesh = EmbreeMesh(g.positions, g.triangles, quality, mask_of(g), filtered(g));
+    row.mesh = EmbreeMesh(g.positions, row.triangles(), quality, mask_of(g), filtered(g));
     s.top.attach(row.mesh, row.slot);
     row.attached = true;
     row.quality = quality;
@@ -162,24 +162,44 @@ void Updater::rebuild(GeometryState& row, BuildQuality quality, double area) {
     ++(quality == BuildQuality::Low ? s.report.low_rebuilds : s.report.rebuilds);
 }
 
+// Returns whether other triangles are traceable than before, for which a tree must be built.
+bool Updater::find_traceable(GeometryState& row) {
+    if (!row.sound) return false;
+    std::vector<uint32_t> kept = without_untraceable(row.seen.positions, row.seen.triangles);
+    if (kept == row.kept) return false;
+    s.background.reset();  // it reads the old ones
+    row.kept = std::move(kept);
+    return true;
+}
+
+// Builds the row's tree of its traceable triangles. Returns false if there is none, so that the row
+// is left out.
+bool Updater::build_deforming(GeometryState& row) {
+    const bool traced = row.sound && (row.kept.empty() || any_traceable(row.kept));
+    if (traced) {
+        rebuild(row, deforming_quality(), watch(row.seen).sum);
+    } else if (row.attached) {
+        s.top.detach(row.slot);
+        row.attached = false;
+    }
+    return traced;
+}
+
 bool Updater::update_deforming(uint32_t index, const Geometry& now) {
     GeometryState& row = s.rows[index];
     const bool same = same_buffers(row.seen, now);
     if (same && row.seen.positions_version == now.positions_version) return false;
     row.seen = now;
-    if (same) {
-        if (row.usable) refit_or_rebuild(row);
-        return row.usable;
+    if (!same) {
+        s.background.reset();  // it is made of the old triangles
+        row.sound = sound(now);
     }
-    s.background.reset();  // it is made of the old triangles
-    row.usable = sound(now);
-    if (row.usable) {
-        rebuild(row, deforming_quality(), watch(now).sum);
-    } else if (row.attached) {
-        s.top.detach(row.slot);
-        row.attached = false;
+    if (find_traceable(row) || !same) {
+        build_deforming(row);
+        return true;
     }
-    return true;
+    if (row.attached) refit_or_rebuild(row);
+    return row.attached;
 }
 
 void Updater::refit_or_rebuild(GeometryState& row) {

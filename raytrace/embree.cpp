@@ -10,6 +10,7 @@
 #include <thread>
 
 #if defined(__SSE2__)
+#include <utility>
 #include <immintrin.h>
 #endif
 
@@ -17,6 +18,7 @@
 #include "raytrace/ray_tracer.h"
 #include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
+#include "raytrace/traceable_p.h"
 #include "runtime/base/shared_library.h"
 
 namespace kinora::raytrace {
@@ -370,6 +372,15 @@ void EmbreeScene::bounds(vec3& low, vec3& high) const {
     low = {box.lower_x, box.lower_y, box.lower_z};
     high = {box.upper_x, box.upper_y, box.upper_z};
 }
+bool EmbreeInstance::has_extent() const {
+    EmbreeScene alone(true, true);
+    alone.attach(*this, 0);
+    alone.commit();
+    vec3 low, high;
+    alone.bounds(low, high);
+    return raytrace::has_extent(low, high);
+}
+
 
 uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bool fixed_winner,
                                   HitPacket16& hits) const {

@@ -64,6 +64,7 @@ class EmbreeInstance {
     }
     ~EmbreeInstance();
     void set_matrix(const float columns[12]);  // and what it instances may have changed
+    bool has_extent() const;                   // of its box, as Embree rounds it; slow
 
   private:
     friend class EmbreeScene;

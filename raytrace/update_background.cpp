@@ -14,13 +14,13 @@ void Updater::start_background() {
     for (uint32_t i = 0; i < s.rows.size(); ++i) {
         GeometryState& row = s.rows[i];
         const Geometry& g = row.seen;
-        if (g.kind != GeometryKind::Deforming || !row.usable) continue;
+        if (g.kind != GeometryKind::Deforming || !row.attached) continue;
         auto& copy = build.copies.emplace_back();
         copy.row = i;
         copy.area = box_areas(g.positions, g.triangles, s.partial).sum;
         copy.positions.assign(g.positions.begin(), g.positions.end());
-        copy.mesh =
-            EmbreeMesh(copy.positions, g.triangles, BuildQuality::Refit, mask_of(g), filtered(g));
+        copy.mesh = EmbreeMesh(copy.positions, row.triangles(), BuildQuality::Refit, mask_of(g),
+                               filtered(g));
         build.scene.attach(copy.mesh, row.slot);
     }
     build.thread = std::thread([&build] {

@@ -7,10 +7,13 @@
 namespace kinora::raytrace {
 
 void Updater::build_shape(InstancedShape& shape, bool dynamic) {
-    const Geometry& g = s.rows[shape.first_row].seen;
-    watch(g);
+    const GeometryState& row = s.rows[shape.first_row];
+    const Geometry& g = row.seen;
     shape.dynamic = dynamic;
     shape.scene = EmbreeScene(dynamic, s.policy.robust);
+    if (!row.sound) return commit_shape(shape);  // empty
+    watch(g);
+    shape.kept = without_untraceable(g.positions, g.triangles);
     bool refit = dynamic && !s.policy.always_rebuild;
     // Rows of one shape may differ in mask and sides, so the instance carries the mask, and the
     // filter is there if any row might need it.
@@ -18,15 +21,21 @@ void Updater::build_shape(InstancedShape& shape, bool dynamic) {
     shape.mesh = EmbreeMesh(g.positions, g.triangles,
                             refit ? BuildQuality::Refit : BuildQuality::Medium, kMaskAll, filter);
     shape.scene.attach(shape.mesh, 0);
-    shape.scene.commit();
+    commit_shape(shape);
     ++s.report.rebuilds;
+}
+
+// Alone in its scene, a mesh may have triangles that are not traceable.
+void Updater::commit_shape(InstancedShape& shape) {
+    shape.scene.commit();
+    shape.scene.bounds(shape.low, shape.high);
 }
 
 void Updater::add_instanced(uint32_t index) {
     GeometryState& row = s.rows[index];
     row.slot = uint32_t(s.map.slots.size());
     s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
-    if (!row.usable) return;
+    if (!row.sound) return;
     auto known = shape_of_.find(row.seen.shape);
     if (known != shape_of_.end()) {
         row.shape = known->second;
@@ -49,20 +58,39 @@ bool Updater::update_shape(uint32_t index, const Geometry& now) {
     dmat4 matrix = row.seen.accel_from_local;  // compared by update_instance
     row.seen = now;
     row.seen.accel_from_local = matrix;
-    if (!same || !shape.dynamic) {
+    if (!same) row.sound = sound(now);
+    if (same && !row.sound) return false;
+    // Embree leaves bad triangles out of a tree for good.
+    if (!same || !shape.dynamic ||
+        shape.kept != without_untraceable(now.positions, now.triangles)) {
         build_shape(shape, same);
         // Instances hold on to the scene they were made of.
         for (GeometryState& r : s.rows)
-            if (r.shape == row.shape && r.attached) {
-                s.top.detach(r.slot);
-                r.attached = false;
-            }
+            if (r.shape == row.shape) leave_out(r);
     } else {
         shape.mesh.vertices_moved();
-        shape.scene.commit();
+        commit_shape(shape);
         ++(s.policy.always_rebuild ? s.report.rebuilds : s.report.refits);
     }
     return true;
+}
+
+void Updater::leave_out(GeometryState& row) {
+    if (row.attached) s.top.detach(row.slot);
+    row.attached = false;
+}
+
+// Returns whether the instance is traceable where its matrix puts it.
+bool Updater::place(GeometryState& row) {
+    if (!make_placement(row.seen.accel_from_local, row.placement)) {
+        note(GeometryIssue::SingularMatrix, row.seen.id, 1);
+        return false;
+    }
+    const InstancedShape& shape = s.shapes[row.shape];
+    if (!has_extent(shape.low, shape.high)) return false;
+    if (!row.attached) row.instance = EmbreeInstance(shape.scene, mask_of(row.seen));
+    row.instance.set_matrix(row.placement.m);
+    return surely_has_extent(row.placement, shape.low, shape.high) || row.instance.has_extent();
 }
 
 bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_changed) {
@@ -73,14 +101,10 @@ bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_ch
     row.seen = now;
     if (!moved && !shape_changed) return false;
     s.report.matrices += moved;
-    if (!make_placement(now.accel_from_local, row.placement)) {
-        note(GeometryIssue::SingularMatrix, now.id, 1);
-        if (row.attached) s.top.detach(row.slot);
-        row.attached = false;
+    if (!place(row)) {
+        leave_out(row);
         return true;
     }
-    if (!row.attached) row.instance = EmbreeInstance(s.shapes[row.shape].scene, mask_of(now));
-    row.instance.set_matrix(row.placement.m);
     if (!row.attached) s.top.attach(row.instance, row.slot);
     row.attached = true;
     map_row(index);

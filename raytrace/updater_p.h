@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raytrace/accel_state_p.h"
+#include "raytrace/traceable_p.h"
 
 namespace kinora::raytrace {
 
@@ -30,16 +31,21 @@ class Updater {
     void start_anew(std::span<const Geometry> geometry);
     void add_static_groups();
     void add_deforming(uint32_t row);
-    bool has_first_pose(const Geometry& g) const;
+    bool has_first_pose(const GeometryState& row) const;
     void leave_first_poses();
     void add_instanced(uint32_t row);
     void build_shape(InstancedShape& shape, bool dynamic);
+    void commit_shape(InstancedShape& shape);
+    bool place(GeometryState& row);
+    void leave_out(GeometryState& row);
     void map_row(uint32_t row);
     bool sound(const Geometry& g);
     void note(GeometryIssue issue, uint32_t id, uint32_t count);
     BoxAreas watch(const Geometry& g);
 
+    bool find_traceable(GeometryState& row);
     bool update_deforming(uint32_t row, const Geometry& now);
+    bool build_deforming(GeometryState& row);
     void refit_or_rebuild(GeometryState& row);
     void rebuild(GeometryState& row, BuildQuality quality, double area);
     void rebuild_low(GeometryState& row, double area);

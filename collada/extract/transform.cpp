@@ -87,6 +87,10 @@ Transform read_transform(Extraction& x, Link link) {
         if (row.kind != TransformKind::Lookat) v = row.identity;
     }
     if (row.kind == TransformKind::Matrix) {
+        if (std::ranges::all_of(v, [](double n) { return n == 0; })) {
+            x.diag.report(Code::NODE_MATRIX_ZERO, x.where(link));
+            v[15] = 1;
+        }
         if (v[12] != 0 || v[13] != 0 || v[14] != 0 || v[15] != 1) {
             x.diag.report(Code::NODE_MATRIX_ROW, x.where(link), v[12], v[13], v[14], v[15]);
             v[12] = v[13] = v[14] = 0;
