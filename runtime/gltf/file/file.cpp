@@ -16,6 +16,7 @@
 #include "runtime/base/uri/package_uri.h"
 #include "runtime/description/findings.h"
 #include "runtime/gltf/file/check.h"
+#include "runtime/gltf/file/indices.h"
 #include "runtime/gltf/file/json_scan.h"
 
 namespace kinora {
@@ -212,6 +213,30 @@ std::string check_version(std::string_view json) {
     return "";
 }
 
+// The bytes of the file with another JSON in them (glTF 2.0, 4.4).
+std::vector<unsigned char> with_json(const std::vector<unsigned char>& bytes, std::string json) {
+    if (!is_binary(bytes)) return {json.begin(), json.end()};
+    const size_t old_end = 20 + little_endian_32(&bytes[12]);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::vector<unsigned char> out(bytes.begin(), bytes.begin() + 20);
+    out.insert(out.end(), json.begin(), json.end());
+    out.insert(out.end(), bytes.begin() + ptrdiff_t(std::min(old_end, bytes.size())), bytes.end());
+    for (auto [at, number] : {std::pair{8, out.size()}, std::pair{12, json.size()}})
+        for (int b = 0; b < 4; ++b) out[size_t(at + b)] = uint8_t(number >> 8 * b);
+    return out;
+}
+
+void report_indices(const GltfFile& file, const GltfIndices& indices, Diagnostics& diagnostics) {
+    for (const GltfIndexFault& fault : indices.faults)
+        diagnostics
+            .report(Code::GLTF_REFERENCE, Location{file.file, fault.range.begin, fault.range.end},
+                    fault.name, fault.value)
+            .id_path = fault.pointer;
+    if (indices.fault_count > indices.faults.size())
+        diagnostics.report(Code::GLTF_MORE, gltf_location(file, ""),
+                           indices.fault_count - indices.faults.size());
+}
+
 bool check_extensions(const GltfFile& file, Diagnostics& diagnostics) {
     bool understood = true;
     std::vector<std::string> required = json_strings(file.json, "/extensionsRequired");
@@ -296,12 +321,27 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     if (!check_extensions(file, diagnostics)) return std::nullopt;
     error = check_gltf_json(file.json, is_binary(bytes));
     if (!error.empty()) return fail(error);
+    const GltfIndices indices = check_gltf_indices(file.json);
+    report_indices(file, indices, diagnostics);
+    if (!indices.not_a_list.empty()) {
+        diagnostics
+            .report(Code::GLTF_INVALID, gltf_location(file, indices.not_a_list),
+                    fmt::format("'{}' is not an array", indices.not_a_list.substr(1)))
+            .id_path = indices.not_a_list;
+        return std::nullopt;
+    }
     Guard guard{options, diagnostics, file, {}};
     for (const GltfBuffer& buffer : gltf_buffers(file.json))
         if (!buffer.uri.empty()) guard.sizes[gltf_path(file, buffer.uri)] = buffer.bytes;
     // As it stands in `bytes`, a .glb's among its other chunks.
     size_t begin = size_t(json.data() - reinterpret_cast<const char*>(bytes.data()));
-    std::span<char> own(reinterpret_cast<char*>(bytes.data()) + begin, json.size());
+    size_t length = json.size();
+    if (!indices.mended.empty()) {
+        bytes = with_json(bytes, indices.mended);
+        begin = is_binary(bytes) ? 20 : 0;
+        length = indices.mended.size();
+    }
+    std::span<char> own(reinterpret_cast<char*>(bytes.data()) + begin, length);
     cut_gltf_data(own);
     if (!load_model(bytes, own, guard, error)) return fail(error);
     return file;

@@ -4,66 +4,11 @@
 #include <algorithm>
 #include <charconv>
 
+#include "runtime/gltf/file/json_scanner_p.h"
+
 namespace kinora {
 
 namespace {
-
-class Scanner {
-  public:
-    explicit Scanner(std::string_view text) : text_(text) {}
-
-    size_t at() const { return at_; }
-    char peek() {
-        while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != text_.npos)
-            ++at_;
-        return at_ < text_.size() ? text_[at_] : '\0';
-    }
-    bool take(char c) {
-        if (peek() != c) return false;
-        ++at_;
-        return true;
-    }
-    // A string with its quotes.
-    std::optional<JsonRange> string() {
-        if (peek() != '"') return std::nullopt;
-        size_t begin = at_++;
-        while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
-        if (at_ >= text_.size()) return std::nullopt;
-        ++at_;
-        return JsonRange{uint32_t(begin), uint32_t(at_)};
-    }
-    // Any value; false at the end of the text.
-    bool skip_value() {
-        size_t depth = 0;
-        do {
-            char c = peek();
-            if (c == '"') {
-                if (!string()) return false;
-            } else if (c == '{' || c == '[') {
-                ++depth;
-                ++at_;
-            } else if (c == '}' || c == ']') {
-                if (depth == 0) return false;
-                --depth;
-                ++at_;
-            } else if (c == ',' || c == ':') {
-                if (depth == 0) return false;
-                ++at_;
-            } else if (c == '\0') {
-                return false;
-            } else {
-                while (at_ < text_.size() &&
-                       std::string_view(" \t\r\n,:{}[]\"").find(text_[at_]) == text_.npos)
-                    ++at_;
-            }
-        } while (depth > 0);
-        return true;
-    }
-
-  private:
-    std::string_view text_;
-    size_t at_ = 0;
-};
 
 void append_utf8(std::string& out, uint32_t c) {
     if (c < 0x80) {
@@ -129,7 +74,7 @@ std::string pointer_token(std::string_view token) {
 }
 
 // Stands before the member's value if there is one.
-bool enter(Scanner& scanner, std::string_view text, const std::string& key) {
+bool enter(JsonScanner& scanner, std::string_view text, const std::string& key) {
     if (scanner.take('{')) {
         while (std::optional<JsonRange> name = scanner.string()) {
             if (!scanner.take(':')) return false;
@@ -152,14 +97,14 @@ struct Found {
 };
 
 Found find(std::string_view text, std::string_view pointer) {
-    Scanner scanner(text);
+    JsonScanner scanner(text);
     Found found;
     size_t begin = (scanner.peek(), scanner.at());
     found.whole = true;
     while (found.whole && !pointer.empty()) {
         pointer.remove_prefix(1);
         size_t slash = std::min(pointer.find('/'), pointer.size());
-        Scanner inside = scanner;
+        JsonScanner inside = scanner;
         found.whole = enter(inside, text, pointer_token(pointer.substr(0, slash)));
         pointer.remove_prefix(slash);
         if (!found.whole) break;
@@ -206,7 +151,7 @@ std::vector<JsonRange> json_elements(std::string_view text, std::string_view poi
     std::optional<JsonRange> range = json_find(text, pointer);
     if (!range) return elements;
     std::string_view array = text.substr(range->begin, range->end - range->begin);
-    Scanner scanner(array);
+    JsonScanner scanner(array);
     if (!scanner.take('[')) return elements;
     while (scanner.peek() != ']' && scanner.peek() != '\0') {
         size_t begin = scanner.at();

@@ -10,6 +10,11 @@
 
 namespace kinora {
 
+// Whether a list of `count` has that index. Where it has not, check_gltf_indices() has reported it.
+inline bool has_index(int index, size_t count) {
+    return index >= 0 && size_t(index) < count;
+}
+
 // The first kMaxGltfFindings are reported, the rest is counted.
 class GltfReport {
   public:
@@ -24,9 +29,6 @@ class GltfReport {
         finding.id_path = pointer;
         return &finding;
     }
-
-    // Whether a list of `count` has that index; a finding where not.
-    bool exists(int index, size_t count, const char* what, const std::string& pointer);
 
     // How many findings were only counted, as a finding.
     void finish();

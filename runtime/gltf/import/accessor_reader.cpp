@@ -76,12 +76,11 @@ bool fits(size_t size, size_t offset, size_t stride, size_t bytes, size_t count)
 }  // namespace
 
 // The bytes of a buffer view; null data where it is not sound.
-AccessorReader::View AccessorReader::view_bytes(int view, const std::string& pointer,
-                                                int accessor) {
-    if (!report_.exists(view, model_.bufferViews.size(), "buffer view", pointer)) return {};
+AccessorReader::View AccessorReader::view_bytes(int view, int accessor) {
+    if (!has_index(view, model_.bufferViews.size())) return {};
     const tinygltf::BufferView& from = model_.bufferViews[size_t(view)];
     std::string own = fmt::format("/bufferViews/{}", view);
-    if (!report_.exists(from.buffer, model_.buffers.size(), "buffer", own + "/buffer")) return {};
+    if (!has_index(from.buffer, model_.buffers.size())) return {};
     const std::vector<unsigned char>& data = model_.buffers[size_t(from.buffer)].data;
     if (from.byteOffset > data.size() || from.byteLength > data.size() - from.byteOffset) {
         report_.add(
@@ -92,9 +91,9 @@ AccessorReader::View AccessorReader::view_bytes(int view, const std::string& poi
     return {data.data() + from.byteOffset, from.byteLength, from.byteStride};
 }
 
-bool AccessorReader::read(int accessor, const std::string& pointer, AccessorNumbers& out) {
+bool AccessorReader::read(int accessor, AccessorNumbers& out) {
     out = {};
-    if (!report_.exists(accessor, model_.accessors.size(), "accessor", pointer)) return false;
+    if (!has_index(accessor, model_.accessors.size())) return false;
     const tinygltf::Accessor& from = model_.accessors[size_t(accessor)];
     std::string own = fmt::format("/accessors/{}", accessor);
     auto refuse = [&](const std::string& why) {
@@ -108,7 +107,7 @@ bool AccessorReader::read(int accessor, const std::string& pointer, AccessorNumb
     size_t bytes = component->bytes * out.width;
     View view;
     if (from.bufferView >= 0) {
-        view = view_bytes(from.bufferView, own + "/bufferView", accessor);
+        view = view_bytes(from.bufferView, accessor);
         if (!view.data) return false;
         if (view.stride == 0) view.stride = bytes;
         if (!fits(view.size, from.byteOffset, view.stride, bytes, from.count))
@@ -140,8 +139,8 @@ bool AccessorReader::read_sparse(int accessor, AccessorNumbers& out) {
     if (!index || !index->index) return refuse("its sparse indices are not unsigned integers");
     if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
         return refuse("its sparse part has negative numbers");
-    View indices = view_bytes(sparse.indices.bufferView, own + "/indices/bufferView", accessor);
-    View values = view_bytes(sparse.values.bufferView, own + "/values/bufferView", accessor);
+    View indices = view_bytes(sparse.indices.bufferView, accessor);
+    View values = view_bytes(sparse.values.bufferView, accessor);
     if (!indices.data || !values.data) return false;
     size_t count = size_t(sparse.count), bytes = component->bytes * out.width;
     size_t first_index = size_t(sparse.indices.byteOffset);
@@ -162,9 +161,8 @@ bool AccessorReader::read_sparse(int accessor, AccessorNumbers& out) {
 }
 
 // Indices keep all their bits: a float holds 24.
-bool AccessorReader::read_indices(int accessor, const std::string& pointer,
-                                  std::vector<uint32_t>& out) {
-    if (!report_.exists(accessor, model_.accessors.size(), "accessor", pointer)) return false;
+bool AccessorReader::read_indices(int accessor, std::vector<uint32_t>& out) {
+    if (!has_index(accessor, model_.accessors.size())) return false;
     const tinygltf::Accessor& from = model_.accessors[size_t(accessor)];
     const ComponentRow* component = find_component(from.componentType);
     std::string own = fmt::format("/accessors/{}", accessor);
@@ -174,11 +172,11 @@ bool AccessorReader::read_indices(int accessor, const std::string& pointer,
     }
     if (from.bufferView < 0 || from.sparse.isSparse) {
         AccessorNumbers numbers;
-        if (!read(accessor, pointer, numbers)) return false;
+        if (!read(accessor, numbers)) return false;
         for (float value : numbers.values) out.push_back(uint32_t(value));
         return true;
     }
-    View view = view_bytes(from.bufferView, own + "/bufferView", accessor);
+    View view = view_bytes(from.bufferView, accessor);
     if (!view.data) return false;
     if (view.stride == 0) view.stride = component->bytes;
     if (!fits(view.size, from.byteOffset, view.stride, component->bytes, from.count)) {
@@ -195,7 +193,7 @@ bool AccessorReader::read_indices(int accessor, const std::string& pointer,
 
 bool AccessorReader::read_vertices(int accessor, std::span<const uint32_t> widths, size_t count,
                                    const std::string& pointer, AccessorNumbers& out) {
-    if (!read(accessor, pointer, out)) return false;
+    if (!read(accessor, out)) return false;
     if (std::find(widths.begin(), widths.end(), out.width) == widths.end()) {
         report_.add(Code::GLTF_ACCESSOR, pointer, accessor,
                     fmt::format("this attribute cannot have {} numbers a vertex", out.width));

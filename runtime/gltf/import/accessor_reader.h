@@ -25,8 +25,8 @@ class AccessorReader {
     AccessorReader(const tinygltf::Model& model, GltfReport& report, ByteBudget& budget)
         : model_(model), report_(report), budget_(budget) {}
 
-    bool read(int accessor, const std::string& pointer, AccessorNumbers& out);
-    bool read_indices(int accessor, const std::string& pointer, std::vector<uint32_t>& out);
+    bool read(int accessor, AccessorNumbers& out);
+    bool read_indices(int accessor, std::vector<uint32_t>& out);
     // An attribute of `count` vertices with one of the widths; not finite numbers become 0.
     bool read_vertices(int accessor, std::span<const uint32_t> widths, size_t count,
                        const std::string& pointer, AccessorNumbers& out);
@@ -36,7 +36,7 @@ class AccessorReader {
         const uint8_t* data = nullptr;
         size_t size = 0, stride = 0;
     };
-    View view_bytes(int view, const std::string& pointer, int accessor);
+    View view_bytes(int view, int accessor);
     bool read_sparse(int accessor, AccessorNumbers& out);
 
     const tinygltf::Model& model_;

@@ -72,10 +72,9 @@ std::optional<anim::Sampler> AnimationImporter::sampler_of(uint32_t animation, u
                                                            uint32_t stride) {
     const tinygltf::Animation& from = model_.animations[animation];
     int index = from.channels[channel].sampler;
-    std::string pointer = fmt::format("/animations/{}/channels/{}/sampler", animation, channel);
-    if (!report_.exists(index, from.samplers.size(), "sampler", pointer)) return std::nullopt;
+    if (!has_index(index, from.samplers.size())) return std::nullopt;
     const tinygltf::AnimationSampler& sampler = from.samplers[size_t(index)];
-    pointer = fmt::format("/animations/{}/samplers/{}", animation, index);
+    std::string pointer = fmt::format("/animations/{}/samplers/{}", animation, index);
     auto refuse = [&](const std::string& member, const std::string& why) {
         report_.add(Code::GLTF_ANIMATION, pointer + member, from.name, why);
         return std::nullopt;
@@ -86,8 +85,7 @@ std::optional<anim::Sampler> AnimationImporter::sampler_of(uint32_t animation, u
         return refuse("/interpolation",
                       fmt::format("'{}' is no interpolation", sampler.interpolation));
     AccessorNumbers input, output;
-    if (!accessors_.read(sampler.input, pointer + "/input", input) ||
-        !accessors_.read(sampler.output, pointer + "/output", output))
+    if (!accessors_.read(sampler.input, input) || !accessors_.read(sampler.output, output))
         return std::nullopt;
     if (input.width != 1) return refuse("/input", "times are single numbers");
     bool rotation = from.channels[channel].target_path == "rotation";
@@ -113,9 +111,8 @@ anim::Animation AnimationImporter::animation_of(uint32_t index) {
     for (uint32_t c = 0; c < from.channels.size(); ++c) {
         const tinygltf::AnimationChannel& channel = from.channels[c];
         std::string pointer = fmt::format("/animations/{}/channels/{}/target", index, c);
-        if (channel.target_node < 0) continue;  // an extension's target
-        if (!report_.exists(channel.target_node, model_.nodes.size(), "node", pointer + "/node"))
-            continue;
+        // None: an extension's target.
+        if (!has_index(channel.target_node, model_.nodes.size())) continue;
         Written target = written_by(channel);
         if (target.slot == kNone || target.count == 0) {
             if (tree_.shown[size_t(channel.target_node)])

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "runtime/gltf/file/value.h"
+#include "runtime/gltf/import/node_tree.h"
 
 namespace kinora {
 
 void import_scene_extras(const tinygltf::Model& model, RslExtras& rsl, SceneDescription& out) {
     if (model.scenes.empty()) return;
-    size_t index = size_t(std::max(model.defaultScene, 0));
-    if (index >= model.scenes.size()) index = 0;
+    const size_t index = shown_scene(model);
     const tinygltf::Value& extras = model.scenes[index].extras;
     out.picture = rsl.picture_shaders(extras, fmt::format("/scenes/{}", index));
     auto take = [&](const char* name, std::optional<double>& to) {

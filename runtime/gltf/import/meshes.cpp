@@ -100,7 +100,7 @@ bool MeshImporter::find_vertices(uint32_t mesh, uint32_t primitive, const std::s
 bool MeshImporter::read_positions(int accessor, const std::string& pointer,
                                   PrimitiveVertices& vertices, std::vector<dvec3>& positions) {
     AccessorNumbers numbers;
-    if (!accessors_.read(accessor, pointer, numbers)) return false;
+    if (!accessors_.read(accessor, numbers)) return false;
     if (numbers.width != 3) {
         report_.add(Code::GLTF_PRIMITIVE, pointer, "positions have three numbers");
         return false;
@@ -121,8 +121,7 @@ std::vector<uint32_t> MeshImporter::triangles_of(const tinygltf::Primitive& prim
                                                  uint32_t vertices, const std::string& pointer) {
     std::vector<uint32_t> indices;
     bool indexed = primitive.indices >= 0;
-    if (indexed && !accessors_.read_indices(primitive.indices, pointer + "/indices", indices))
-        return {};
+    if (indexed && !accessors_.read_indices(primitive.indices, indices)) return {};
     size_t listed = indexed ? indices.size() : vertices;
     bool apart = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     size_t count = apart ? listed / 3 : listed < 3 ? 0 : listed - 2;
@@ -275,9 +274,7 @@ void MeshImporter::import_primitive(uint32_t mesh, uint32_t index) {
     if (!tangents.empty() && budget_.charge(group.triangles.size() * 24, pointer))
         add_tangents(definition.positions, vertices.first, tangents, group);
     int material = from.material;
-    if (material >= 0 &&
-        !report_.exists(material, model_.materials.size(), "material", pointer + "/material"))
-        material = -1;
+    if (!has_index(material, model_.materials.size())) material = -1;
     group.symbol = std::to_string(material >= 0 ? size_t(material) : model_.materials.size());
     vertices.group = uint32_t(definition.groups.size());
     definition.groups.push_back(std::move(group));

@@ -15,15 +15,16 @@ constexpr size_t kMaxNodeDepth = 1024;  // the builder recurses into children
 
 std::vector<int> root_nodes(const tinygltf::Model& model, GltfReport& report) {
     if (!model.scenes.empty()) {
-        int scene = model.defaultScene;
-        if (scene >= 0 && !report.exists(scene, model.scenes.size(), "scene", "/scene")) scene = 0;
-        return model.scenes[size_t(std::max(scene, 0))].nodes;
+        std::vector<int> roots = model.scenes[shown_scene(model)].nodes;
+        for (int& root : roots)
+            if (!has_index(root, model.nodes.size())) root = -1;  // the others keep their positions
+        return roots;
     }
     report.add(Code::GLTF_NO_SCENE, "");
     std::vector<bool> child(model.nodes.size(), false);
     for (const tinygltf::Node& node : model.nodes)
         for (int c : node.children)
-            if (c >= 0 && size_t(c) < child.size()) child[size_t(c)] = true;
+            if (has_index(c, child.size())) child[size_t(c)] = true;
     std::vector<int> roots;
     for (size_t n = 0; n < child.size(); ++n)
         if (!child[n]) roots.push_back(int(n));
@@ -31,6 +32,10 @@ std::vector<int> root_nodes(const tinygltf::Model& model, GltfReport& report) {
 }
 
 }  // namespace
+
+size_t shown_scene(const tinygltf::Model& model) {
+    return has_index(model.defaultScene, model.scenes.size()) ? size_t(model.defaultScene) : 0;
+}
 
 // Walks the scene's trees; a node met again (a second parent, a cycle) is not entered again, so
 // what remains are trees.
@@ -49,10 +54,9 @@ GltfNodeTree read_node_tree(const tinygltf::Model& model, GltfReport& report) {
         Step step = stack.back();
         stack.pop_back();
         std::string pointer =
-            step.parent < 0
-                ? fmt::format("/scenes/{}/nodes/{}", std::max(model.defaultScene, 0), step.index)
-                : fmt::format("/nodes/{}/children/{}", step.parent, step.index);
-        if (!report.exists(step.node, model.nodes.size(), "node", pointer)) continue;
+            step.parent < 0 ? fmt::format("/scenes/{}/nodes/{}", shown_scene(model), step.index)
+                            : fmt::format("/nodes/{}/children/{}", step.parent, step.index);
+        if (!has_index(step.node, model.nodes.size())) continue;
         uint32_t node = uint32_t(step.node);
         if (tree.shown[node]) {
             report.add(Code::GLTF_NODE, pointer, step.node,

@@ -49,6 +49,9 @@ bool NodeImporter::usable(const std::vector<double>& numbers, size_t count, uint
 
 bool NodeImporter::usable_matrix(uint32_t node) {
     if (!usable(model_.nodes[node].matrix, 16, node, "matrix")) return false;
+    if (std::ranges::all_of(model_.nodes[node].matrix, [](double n) { return n == 0; }))
+        report_.add(Code::GLTF_NODE, fmt::format("/nodes/{}/matrix", node), node,
+                    "its matrix is all zeros; everything below it lies in one point");
     if (!(moving_[node] & kMovesTransform)) return true;
     report_.add(Code::GLTF_NODE, fmt::format("/nodes/{}/matrix", node), node,
                 "it is animated; only translation, rotation and scale can be, its matrix is left "
@@ -119,19 +122,13 @@ void NodeImporter::import_content(uint32_t node) {
     const tinygltf::Node& from = model_.nodes[node];
     NodeDefinition& to = out_.nodes[node];
     std::string pointer = fmt::format("/nodes/{}", node);
-    if (from.camera >= 0 &&
-        report_.exists(from.camera, model_.cameras.size(), "camera", pointer + "/camera"))
-        to.cameras.push_back(uint32_t(from.camera));
+    if (has_index(from.camera, model_.cameras.size())) to.cameras.push_back(uint32_t(from.camera));
     if (auto light = from.extensions.find("KHR_lights_punctual");
         light != from.extensions.end() && light->second.Has("light")) {
         int index = light->second.Get("light").GetNumberAsInt();
-        if (report_.exists(index, model_.lights.size(), "light",
-                           pointer + "/extensions/KHR_lights_punctual/light"))
-            to.lights.push_back(uint32_t(index));
+        if (has_index(index, model_.lights.size())) to.lights.push_back(uint32_t(index));
     }
-    if (from.mesh >= 0 &&
-        report_.exists(from.mesh, model_.meshes.size(), "mesh", pointer + "/mesh"))
-        to.meshes.push_back(mesh_use(node));
+    if (has_index(from.mesh, model_.meshes.size())) to.meshes.push_back(mesh_use(node));
 }
 
 // What a node wears: its mesh, the materials of all its groups, skin and morph.
@@ -156,7 +153,7 @@ MeshUse NodeImporter::mesh_use(uint32_t node) {
         morphs_.morph_of(use.mesh, node, moving_[node] & kMovesWeights);
     if (from.skin < 0) return use;
     std::string pointer = fmt::format("/nodes/{}/skin", node);
-    if (!report_.exists(from.skin, model_.skins.size(), "skin", pointer)) return use;
+    if (!has_index(from.skin, model_.skins.size())) return use;
     use.skin = skins_.skin_of(use.mesh, uint32_t(from.skin));
     for (int joint : model_.skins[size_t(from.skin)].joints) {
         bool there =

@@ -145,7 +145,8 @@ ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Va
     compile(code, !co_shaders);
     std::string name = string_member(layer, "shader");
     for (auto& shader : code.shaders)
-        if (!use.shader && (name.empty() || shader->name == name)) use.shader = as_kind(shader, kind);
+        if (!use.shader && (name.empty() || shader->name == name))
+            use.shader = as_kind(shader, kind);
     if (!use.shader) {
         if (!code.shaders.empty())
             diagnostics_.report(Code::RSL_SHADER_MISSING, report_.location(pointer),
@@ -356,7 +357,9 @@ bool RslExtras::read_strings(const tinygltf::Value& value, const std::string& po
 std::string RslExtras::texture_of(const tinygltf::Value& value, int texture,
                                   const std::string& pointer) {
     bool is_data = bool_member(value, "data").value_or(false);
-    std::string name = textures_.texture_name(texture, is_data, pointer);
+    if (!has_index(texture, file_.model.textures.size()))
+        report_.add(Code::GLTF_REFERENCE, pointer, "texture", texture);
+    std::string name = textures_.texture_name(texture, is_data);
     if (name.empty()) return name;
     const tinygltf::Value* look = member(value, "look");
     if (look && look->IsString()) {

@@ -22,8 +22,7 @@ void SkinImporter::read_inverse_bind(uint32_t skin, SkinDefinition& to) {
     const tinygltf::Skin& from = model_.skins[skin];
     AccessorNumbers matrices;
     std::string pointer = fmt::format("/skins/{}/inverseBindMatrices", skin);
-    if (from.inverseBindMatrices < 0 ||
-        !accessors_.read(from.inverseBindMatrices, pointer, matrices))
+    if (from.inverseBindMatrices < 0 || !accessors_.read(from.inverseBindMatrices, matrices))
         return;
     size_t joints = to.inverse_bind.size();
     if (matrices.width != 16 || matrices.count() < joints)
@@ -57,8 +56,7 @@ uint32_t SkinImporter::skin_of(uint32_t mesh, uint32_t skin) {
     read_inverse_bind(skin, to);
     for (size_t j = 0; j < joints; ++j) {
         int node = from.joints[j];
-        report_.exists(node, model_.nodes.size(), "node", fmt::format("{}/joints/{}", pointer, j));
-        bool there = node >= 0 && size_t(node) < model_.nodes.size();
+        bool there = has_index(node, model_.nodes.size());
         to.joint_names.push_back(there ? model_.nodes[size_t(node)].name : "");
     }
     add_influences(mesh, to);

@@ -80,8 +80,8 @@ std::string TextureImporter::find_picture(const std::string& uri, const std::str
 }
 
 // The file of an image; an image inside the scene's file becomes a MemoryFile.
-std::string TextureImporter::image_path(int image, const std::string& pointer) {
-    if (!report_.exists(image, file_.model.images.size(), "image", pointer)) return "";
+std::string TextureImporter::image_path(int image) {
+    if (!has_index(image, file_.model.images.size())) return "";
     auto [known, is_new] = images_.try_emplace(image);
     if (!is_new) return known->second;
     tinygltf::Image& from = file_.model.images[size_t(image)];
@@ -89,7 +89,7 @@ std::string TextureImporter::image_path(int image, const std::string& pointer) {
     if (from.bufferView < 0 && from.image.empty())
         return known->second = find_picture(from.uri, own + "/uri");
     std::vector<uint8_t> bytes = std::move(from.image);
-    if (from.bufferView >= 0) {
+    if (from.bufferView >= 0) {  // check_gltf_json() has looked at both
         const tinygltf::BufferView& view = file_.model.bufferViews[size_t(from.bufferView)];
         const std::vector<unsigned char>& data = file_.model.buffers[size_t(view.buffer)].data;
         if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset ||
@@ -106,8 +106,8 @@ std::string TextureImporter::image_path(int image, const std::string& pointer) {
     return known->second;
 }
 
-std::string TextureImporter::texture_name(int texture, bool data, const std::string& pointer) {
-    if (!report_.exists(texture, file_.model.textures.size(), "texture", pointer)) return "";
+std::string TextureImporter::texture_name(int texture, bool data) {
+    if (!has_index(texture, file_.model.textures.size())) return "";
     const tinygltf::Texture& from = file_.model.textures[size_t(texture)];
     std::string own = fmt::format("/textures/{}", texture);
     if (from.source < 0) {
@@ -115,11 +115,10 @@ std::string TextureImporter::texture_name(int texture, bool data, const std::str
         return "";
     }
     TextureName name;
-    name.path = image_path(from.source, own + "/source");
+    name.path = image_path(from.source);
     if (name.path.empty()) return "";
     name.data = data;
-    if (from.sampler >= 0 &&
-        report_.exists(from.sampler, file_.model.samplers.size(), "sampler", own + "/sampler"))
+    if (has_index(from.sampler, file_.model.samplers.size()))
         apply_sampler(file_.model.samplers[size_t(from.sampler)], name);
     return texture_name_string(name);
 }
@@ -128,7 +127,7 @@ std::string TextureImporter::texture_name(int texture, bool data, const std::str
 void TextureImporter::set_map(ShaderUse& use, const std::string& name, const GltfTextureInfo& info,
                               bool data, const std::string& pointer) {
     if (info.index < 0) return;
-    std::string text = texture_name(info.index, data, pointer + "/index");
+    std::string text = texture_name(info.index, data);
     if (text.empty()) return;
     int set = info.set;
     auto found = info.extensions.find("KHR_texture_transform");

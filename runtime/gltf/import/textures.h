@@ -26,14 +26,14 @@ class TextureImporter {
         : file_(file), report_(report), budget_(budget), out_(out) {}
 
     // The name of a texture (texture_name.h); "" where it cannot be read.
-    std::string texture_name(int texture, bool data, const std::string& pointer);
+    std::string texture_name(int texture, bool data);
 
     // Gives a shader X_map and what goes with it (assets/shaders/gltf_pbr.sl).
     void set_map(ShaderUse& use, const std::string& name, const GltfTextureInfo& info, bool data,
                  const std::string& pointer);
 
   private:
-    std::string image_path(int image, const std::string& pointer);
+    std::string image_path(int image);
     std::string find_picture(const std::string& uri, const std::string& pointer);
 
     GltfFile& file_;

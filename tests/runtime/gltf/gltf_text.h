@@ -63,4 +63,10 @@ struct GltfDescription {
 std::unique_ptr<GltfDescription> described(const std::string& content,
                                            const char* extension = ".glb");
 
+// A scene with one of nearly everything: a texture, a skin, a morph, a light, animations.
+GltfText whole_scene();
+
+// Imports the file, builds its scene and renders a small frame. What is no scene has an error.
+void survive(const std::string& content, const char* extension);
+
 }  // namespace kinora

@@ -18,33 +18,6 @@ namespace {
 
 using nlohmann::json;
 
-GltfText whole_scene() {
-    GltfText g;
-    int t = g.texture(1, 1, {255, 255, 255, 255}, json::object());
-    int m = g.material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", t}}}}}});
-    int mesh = g.square(m);
-    g.json["meshes"][size_t(mesh)]["primitives"][0]["targets"] = {
-        {{"POSITION", g.floats(std::vector<float>(12, 0.5f), "VEC3")}}};
-    std::vector<uint8_t> joints(16, 0);
-    std::vector<float> weights = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-    auto& attributes = g.json["meshes"][size_t(mesh)]["primitives"][0]["attributes"];
-    attributes["JOINTS_0"] = g.accessor(g.view(joints.data(), 16), 5121, 4, "VEC4");
-    attributes["WEIGHTS_0"] = g.floats(weights, "VEC4");
-    int joint = g.node({{"name", "joint"}});
-    g.json["skins"] = {{{"joints", {joint}},
-                        {"inverseBindMatrices",
-                         g.floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, "MAT4")}}};
-    int node = g.node({{"mesh", mesh}, {"skin", 0}, {"children", json::array()}});
-    g.json["extensionsUsed"] = {"KHR_lights_punctual"};
-    g.json["extensions"]["KHR_lights_punctual"]["lights"] = {
-        {{"type", "spot"}, {"spot", {{"outerConeAngle", 0.5}}}}};
-    g.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-    g.json["animations"].push_back({{"name", "move"}});
-    g.animate(0, joint, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 1, 0, 0, 0});
-    g.animate(0, node, "weights", "STEP", {0, 1}, {0, 1});
-    return g;
-}
-
 TEST(GltfHostile, TheWholeSceneIsSound) {
     auto r = rendering_of(whole_scene());
     r->scene->watch_dark = false;  // its spot light reaches nothing
@@ -312,22 +285,6 @@ json mutated(json j, std::mt19937& random) {
     } catch (const json::exception&) {
         return j;
     }
-}
-
-void survive(const std::string& content, const char* extension) {
-    auto d = described(content, extension);
-    if (!d->scene) {
-        EXPECT_TRUE(d->diagnostics.has_errors());
-        return;
-    }
-    auto scene =
-        build_scene(std::make_shared<SceneDescription>(std::move(*d->scene)), {}, d->diagnostics);
-    if (!scene) return;
-    FrameSettings settings;
-    settings.width = settings.height = 4;
-    raytrace::Film film;
-    FrameStats stats;
-    render_frame(*scene, 0.5, settings, film, stats, d->diagnostics);
 }
 
 int rounds() {
