@@ -166,7 +166,8 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
         if (shown->replaces_camera) keep_scene();
         return;  // the last good scene stays
     }
-    bool first = !info || shown->replaces_camera;
+    const std::shared_ptr<const SceneInfo> before = info;
+    bool first = !before || shown->replaces_camera;
     if (shown->replaces_camera) changes_before.reset();
     info = shown->info;
     textures = shown->scene->textures;
@@ -187,7 +188,7 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
     time.last = info->last;
     if (first) {
         state.camera = {};
-        state.camera.index = shown->scene->camera;
+        state.camera.index = info->camera;
         state.time = {};
         state.time.first = info->first;
         state.time.last = info->last;
@@ -201,11 +202,13 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
         if (std::optional<Session> taken = std::exchange(session, std::nullopt))
             take_session(*taken, *shown);
     } else {
-        state.camera.index =
-            std::min(state.camera.index, uint32_t(shown->scene->cameras.size() - 1));
+        const bool as_chosen = state.camera.index == before->camera;
+        state.camera.index = as_chosen
+                                 ? info->camera
+                                 : std::min(state.camera.index, uint32_t(info->cameras.size() - 1));
         time.frame = std::clamp(time.frame, time.first, time.last);
     }
-    loop.show(std::shared_ptr<ShownScene>(std::move(shown)));
+    loop.show(std::move(shown), view_order(), display_settings());
     send_order();
 }
 

@@ -97,12 +97,14 @@ RenderLoop::~RenderLoop() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-void RenderLoop::show(std::shared_ptr<ShownScene> scene) {
+void RenderLoop::show(std::shared_ptr<ShownScene> scene, const ViewOrder& order,
+                      const DisplaySettings& display) {
     {
         std::lock_guard lock(mutex_);
         scene_ = std::move(scene);
         if (scene_->replaces_camera) begins_ = true;
         swaps_.clear();
+        take_order(order, display);
         want_picture();
         stop_ = 1;
     }
@@ -125,26 +127,31 @@ void RenderLoop::want_picture() {
     ++count_.ordered;
 }
 
+// With the lock.
+void RenderLoop::take_order(const ViewOrder& order, const DisplaySettings& display) {
+    bool same = order_.same_picture(order);
+    bool refines_now = order_.playing && !order.playing && order.refine;
+    bool quality_changed = order_.refine != order.refine;
+    order_ = order;
+    if (!(display == display_)) {
+        // The guide or the costs may be missing.
+        if (shows_guide(display.aov) && !shows_guide(display_.aov)) same = false;
+        if (shows_costs(display.aov) != shows_costs(display_.aov)) same = false;
+        display_ = display;
+        display_changed_ = true;
+    }
+    if (!same) {
+        want_picture();
+        if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;
+    } else if ((refines_now || quality_changed) && next_ == Pass::Done) {
+        want_picture();
+    }
+}
+
 void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
     {
         std::lock_guard lock(mutex_);
-        bool same = order_.same_picture(order);
-        bool refines_now = order_.playing && !order.playing && order.refine;
-        bool quality_changed = order_.refine != order.refine;
-        order_ = order;
-        if (!(display == display_)) {
-            // The guide or the costs may be missing.
-            if (shows_guide(display.aov) && !shows_guide(display_.aov)) same = false;
-            if (shows_costs(display.aov) != shows_costs(display_.aov)) same = false;
-            display_ = display;
-            display_changed_ = true;
-        }
-        if (!same) {
-            want_picture();
-            if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;
-        } else if ((refines_now || quality_changed) && next_ == Pass::Done) {
-            want_picture();
-        }
+        take_order(order, display);
     }
     wanted_.notify_one();
     overtaken_.notify_one();

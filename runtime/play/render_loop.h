@@ -34,8 +34,10 @@ class RenderLoop {
     ~RenderLoop();
     RenderLoop(const RenderLoop&) = delete;
 
-    // The scene from now on; its pictures follow the next order.
-    void show(std::shared_ptr<ShownScene> scene);
+    // The scene from now on, with its first order: one made for another scene may name a camera
+    // that this one does not choose.
+    void show(std::shared_ptr<ShownScene> scene, const ViewOrder& order,
+              const DisplaySettings& display);
     // Other kernels in that scene, between two frames.
     void swap(SwappedShaders shaders);
     void order(const ViewOrder& order, const DisplaySettings& display);
@@ -77,6 +79,7 @@ class RenderLoop {
     };
 
     void want_picture();
+    void take_order(const ViewOrder& order, const DisplaySettings& display);
     void run();
     void end_late_frames();
     bool is_overtaken() const;

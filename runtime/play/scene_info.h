@@ -49,6 +49,7 @@ struct SceneInfo {
     UpAxis up_axis = UpAxis::Y;
     dvec3 low{0.0}, high{0.0};  // of the first frame
     std::vector<std::string> cameras;
+    uint32_t camera = 0;              // the one of them that build_scene() chose
     std::vector<std::string> lights;  // as Scene::lights; names that occur twice have their number
     std::vector<ClipInfo> clips;
     std::vector<NodeInfo> nodes;

@@ -245,6 +245,7 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
     info->low = scene.low;
     info->high = scene.high;
     for (const CameraSource& camera : scene.cameras) info->cameras.push_back(camera.name);
+    info->camera = scene.camera;
     info->lights = light_names(scene);
     for (const ClipDefinition& clip : description.clips)
         info->clips.push_back({clip.name, clip.start * rate.value(), clip.end * rate.value()});

@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import written_scenes
 from programs import MATTE, SCENES, SOURCE, ProgramTest, main, render, run
 
 sys.path.insert(0, str(SOURCE / "scripts/sheet"))
@@ -35,6 +36,21 @@ class Play(ProgramTest):
     def test_with_the_same_options(self):
         self.check_same(MATTE, 0, "--camera", "top", "--lights", "default", "--exposure", "1", "--param", "bright.Kd=0.2",
                         "--background", "0.1,0.2,0.3", "--scale", "50%")
+
+    def test_the_camera_is_the_one_that_kinora_render_chooses(self):
+        """Not for a moment the file's, which makes no picture: several runs, since that was by chance."""
+        for optics in ("<aspect_ratio>1</aspect_ratio>", "<yfov>200</yfov>", "<yfov>0</yfov>"):
+            optics = f"<perspective>{optics}<znear>.1</znear><zfar>100</zfar></perspective>"
+            cam, eye = written_scenes.camera(optics)
+            scene = self.write("scene.dae", written_scenes.document(
+                cam + written_scenes.WHITE + written_scenes.geometries(written_scenes.square()),
+                eye + written_scenes.place()))
+            for _ in range(8):
+                with self.subTest(optics=optics):
+                    result = play(scene, "--headless", "--screenshot", self.folder / "play.png", *SMALL)
+                    self.expect(result, 0, "CAMERA_SEES_LITTLE")
+                    self.assertNotIn("CAMERA_OPTICS", result.err)
+            self.check_same(scene, 0)
 
     def test_frames_need_a_token(self):
         self.expect(play(MATTE, "--headless", "--screenshot", self.folder / "a.png", "--frames", "0-1", *SMALL), 2, "####")
