@@ -61,6 +61,7 @@ struct BackgroundBuild {
     };
     EmbreeScene scene;
     std::vector<Copy> copies;
+    bool failed = false;  // memory ended; read once it is done
     std::atomic<bool> done{false};
     std::thread thread;
     ~BackgroundBuild() {

@@ -7,27 +7,43 @@
 #include <cfloat>
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #if defined(__SSE2__)
-#include <utility>
 #include <immintrin.h>
 #endif
 
 #include "raytrace/embree_p.h"
 #include "raytrace/ray_tracer.h"
+#include "raytrace/traceable_p.h"
 #include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
-#include "raytrace/traceable_p.h"
 #include "runtime/base/shared_library.h"
 
 namespace kinora::raytrace {
 
 namespace {
 
+// Set where a call of this thread ended so; Embree's functions themselves return nothing.
+thread_local bool t_out_of_memory = false;
+
+// Called on the thread of the call that fails. A thread that cannot be started is memory, too: that
+// of its stack.
 void report_error(void*, RTCError code, const char* text) {
     if (code == RTC_ERROR_NONE) return;
+    if (code == RTC_ERROR_OUT_OF_MEMORY || (text && std::strstr(text, "pthread_create"))) {
+        t_out_of_memory = true;
+        return;
+    }
     std::fprintf(stderr, "kinora: Embree: %s (%d)\n", text ? text : "", int(code));
+}
+
+// After calls that make or build something, which is not whole where memory ended.
+void require_memory() {
+    if (std::exchange(t_out_of_memory, false)) throw std::bad_alloc();
 }
 
 // Opened before Embree, whose tasks it bounds.
@@ -41,13 +57,20 @@ struct Embree : TaskScheduler, SharedLibrary {
     Embree() : SharedLibrary(KINORA_EMBREE_LIBRARY, "rays are traced", "libembree3-3") {
         if (!error().empty()) return;
         device = rtcNewDevice(nullptr);
-        if (device) rtcSetDeviceErrorFunction(device, report_error, nullptr);
+        if (device) {
+            rtcSetDeviceErrorFunction(device, report_error, nullptr);
+            return;
+        }
+        // Unknown: oneTBB's threads cannot be started.
+        const RTCError why = rtcGetDeviceError(nullptr);
+        if (why == RTC_ERROR_OUT_OF_MEMORY || why == RTC_ERROR_UNKNOWN) throw std::bad_alloc();
     }
 
     KINORA_FUNCTION(rtcAttachGeometryByID);
     KINORA_FUNCTION(rtcCommitGeometry);
     KINORA_FUNCTION(rtcCommitScene);
     KINORA_FUNCTION(rtcDetachGeometry);
+    KINORA_FUNCTION(rtcGetDeviceError);
     KINORA_FUNCTION(rtcGetSceneBounds);
     KINORA_FUNCTION(rtcIntersect16);
     KINORA_FUNCTION(rtcNewDevice);
@@ -82,6 +105,12 @@ RTCGeometry geometry(void* p) {
 }
 RTCScene scene(void* p) {
     return static_cast<RTCScene>(p);
+}
+
+RTCGeometry new_geometry(RTCGeometryType type) {
+    RTCGeometry made = embree().rtcNewGeometry(embree().device, type);
+    require_memory();
+    return made;
 }
 
 constexpr RTCBuildQuality kQualities[] = {RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_MEDIUM,
@@ -285,12 +314,21 @@ const std::string& ray_tracer_error() {
 }
 
 std::jthread open_ray_tracer_early() {
-    return std::jthread([] { opened<Embree>(); });
+    try {
+        return std::jthread([] {
+            try {
+                opened<Embree>();
+            } catch (const std::bad_alloc&) {  // the first Accel meets it again
+            }
+        });
+    } catch (const std::system_error&) {  // the caller opens it when it needs it
+        return {};
+    }
 }
 
 EmbreeMesh::EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t> triangles,
                        BuildQuality quality, uint32_t mask, bool filtered) {
-    RTCGeometry g = embree().rtcNewGeometry(embree().device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry g = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
     geometry_ = g;
     set_buffers(g, positions, triangles);
     embree().rtcSetGeometryBuildQuality(
@@ -317,7 +355,7 @@ void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
 }
 
 EmbreeInstance::EmbreeInstance(const EmbreeScene& of, uint32_t mask) {
-    RTCGeometry g = embree().rtcNewGeometry(embree().device, RTC_GEOMETRY_TYPE_INSTANCE);
+    RTCGeometry g = new_geometry(RTC_GEOMETRY_TYPE_INSTANCE);
     geometry_ = g;
     embree().rtcSetGeometryInstancedScene(g, scene(of.scene_));
     embree().rtcSetGeometryTimeStepCount(g, 1);
@@ -334,8 +372,18 @@ void EmbreeInstance::set_matrix(const float columns[12]) {
     embree().rtcCommitGeometry(geometry(geometry_));
 }
 
+bool EmbreeInstance::has_extent() const {
+    EmbreeScene alone(true, true);
+    alone.attach(*this, 0);
+    alone.commit();
+    vec3 low, high;
+    alone.bounds(low, high);
+    return raytrace::has_extent(low, high);
+}
+
 EmbreeScene::EmbreeScene(bool dynamic, bool robust) {
     RTCScene s = embree().rtcNewScene(embree().device);
+    require_memory();
     scene_ = s;
     // Never HIGH: it aborts on extreme meshes in Debian's build (docs/numerics.md#geometry).
     embree().rtcSetSceneBuildQuality(s, dynamic ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
@@ -364,6 +412,7 @@ void EmbreeScene::detach(uint32_t slot) {
 void EmbreeScene::commit() {
     DenormalGuard guard;
     embree().rtcCommitScene(scene(scene_));
+    require_memory();
 }
 
 void EmbreeScene::bounds(vec3& low, vec3& high) const {
@@ -372,15 +421,6 @@ void EmbreeScene::bounds(vec3& low, vec3& high) const {
     low = {box.lower_x, box.lower_y, box.lower_z};
     high = {box.upper_x, box.upper_y, box.upper_z};
 }
-bool EmbreeInstance::has_extent() const {
-    EmbreeScene alone(true, true);
-    alone.attach(*this, 0);
-    alone.commit();
-    vec3 low, high;
-    alone.bounds(low, high);
-    return raytrace::has_extent(low, high);
-}
-
 
 uint32_t EmbreeScene::intersect16(const RayPacket16& rays, const HitMap& map, bool fixed_winner,
                                   HitPacket16& hits) const {

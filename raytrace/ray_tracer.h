@@ -1,5 +1,5 @@
 // raytrace/ray_tracer.h: Embree's library, which is opened when the first Accel is updated or by
-// the first of these calls.
+// the first of these calls. Where memory ends, these and Accel::update() throw bad_alloc.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace kinora::raytrace {
 const std::string& ray_tracer_error();
 
 // Opens the library on a thread of its own, while the caller reads a scene; who needs it waits. The
-// thread must have ended before the program does.
+// thread must have ended before the program does. There is none where it cannot be started.
 std::jthread open_ray_tracer_early();
 
 }  // namespace kinora::raytrace

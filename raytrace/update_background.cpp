@@ -1,4 +1,5 @@
 // raytrace/update_background.cpp: the second tree, built while the first one serves.
+#include <new>
 #include <utility>
 
 #include "raytrace/updater_p.h"
@@ -24,7 +25,11 @@ void Updater::start_background() {
         build.scene.attach(copy.mesh, row.slot);
     }
     build.thread = std::thread([&build] {
-        build.scene.commit();
+        try {
+            build.scene.commit();
+        } catch (const std::bad_alloc&) {
+            build.failed = true;
+        }
         build.done.store(true, std::memory_order_release);
     });
     ++s.report.background_started;
@@ -35,6 +40,7 @@ void Updater::take_up_background() {
     if (!s.background || !s.background->done.load(std::memory_order_acquire)) return;
     BackgroundBuild& build = *s.background;
     build.thread.join();
+    if (build.failed) return s.background.reset();  // the tree in use serves on
     for (auto& copy : build.copies) {
         GeometryState& row = s.rows[copy.row];
         copy.mesh.vertices_moved_to(row.seen.positions);

@@ -5,8 +5,22 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <new>
 
 namespace kinora {
+
+namespace {
+
+// dlerror() has no number. The texts are glibc's, untranslated in the C locale that programs run
+// in.
+bool is_out_of_memory(std::string_view why) {
+    return why.find("failed to map segment") != why.npos ||
+           why.find("annot allocate memory") != why.npos ||
+           why.find("annot map zero-fill pages") != why.npos ||
+           why.find("annot create") != why.npos;
+}
+
+}  // namespace
 
 SharedLibrary::SharedLibrary(const std::string& file, std::string_view purpose,
                              std::string_view package)
@@ -16,6 +30,7 @@ SharedLibrary::SharedLibrary(const std::string& file, std::string_view purpose,
       handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (handle_) return;
     const char* why = dlerror();
+    if (why && is_out_of_memory(why)) throw std::bad_alloc();
     fail(why ? why : "unknown reason");
 }
 

@@ -17,6 +17,7 @@ class SharedLibrary {
   public:
     // `file`: a soname ("libzip.so.4") or a path. `purpose` and `package` complete the error:
     // "archives are read by libzip.so.4, which cannot be loaded (...); install libzip4".
+    // Throws bad_alloc where there is no memory to map it.
     SharedLibrary(const std::string& file, std::string_view purpose, std::string_view package);
     SharedLibrary(const SharedLibrary&) = delete;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "runtime/frame/frame.h"
@@ -83,10 +84,19 @@ void RenderLoop::Memory::pace(const std::shared_ptr<ShownScene>& scene, bool beg
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
     : real_time_(real_time), wake_(std::move(wake)), memory_(std::make_unique<Memory>()) {
     threads_.emplace_back([this] { run(); });
-    threads_.emplace_back([this] { end_late_frames(); });
+    try {
+        threads_.emplace_back([this] { end_late_frames(); });
+    } catch (const std::system_error&) {  // as many threads as there may be
+        end_threads();
+        throw;
+    }
 }
 
 RenderLoop::~RenderLoop() {
+    end_threads();
+}
+
+void RenderLoop::end_threads() {
     {
         std::lock_guard lock(mutex_);
         quit_ = true;

@@ -13,7 +13,7 @@ enum ExitCode : int {
     kExitMissingAsset = 5,   // under --strict
     kExitUnwritable = 6,     // output cannot be written
     kExitRetry = 75,         // retry may help: disk full, out of memory
-    kExitInterrupted = 130,  // SIGINT
+    kExitInterrupted = 130,  // SIGINT; others are 128 and the signal's number, too
     kExitTerminated = 143,   // SIGTERM
 };
 
@@ -22,7 +22,9 @@ inline constexpr const char* kExitCodeHelp =
     "error;\n"
     "5 missing asset under --strict; 6 output cannot be written; 75 retry may help (disk full, "
     "out\n"
-    "of memory); 130/143 stopped by a signal, finished frames kept.";
+    "of memory); 130/143 stopped by SIGINT/SIGTERM, finished frames kept (129 SIGHUP, 152 "
+    "SIGXCPU,\n"
+    "153 SIGXFSZ).";
 
 // jit/debug/code_tools.h reads these.
 inline constexpr const char* kEnvironmentHelp =

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <new>
 #include <nlohmann/json.hpp>
 
 #include "collada/document/open_scene.h"
@@ -234,12 +233,7 @@ class Conversion {
 }  // namespace
 
 int convert(const ConvertOptions& options) {
-    try {
-        return Conversion(options).run();
-    } catch (const std::bad_alloc&) {
-        std::fputs("kinora: error: out of memory\n", stderr);
-        return kExitRetry;
-    }
+    return Conversion(options).run();
 }
 
 }  // namespace kinora

@@ -2,7 +2,7 @@
 #include "runtime/base/file_extension.h"
 #include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/command_line.h"
-#include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/run_program.h"
 #include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/convert/convert.h"
 
@@ -87,8 +87,10 @@ std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& 
 int main(int argc, char** argv) {
     kinora::ready_standard_streams();
     kinora::ready_heap(kinora::kHeapOfStart);
-    kinora::ConvertOptions options;
-    if (std::optional<int> code = kinora::parse_convert_options(argc, argv, options))
-        return kinora::finish(*code, "kinora-convert");
-    return kinora::finish(kinora::convert(options), "kinora-convert");
+    return kinora::run_program("kinora-convert", [&]() -> int {
+        kinora::ConvertOptions options;
+        if (std::optional<int> code = kinora::parse_convert_options(argc, argv, options))
+            return *code;
+        return kinora::convert(options);
+    });
 }

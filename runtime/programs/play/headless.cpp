@@ -70,6 +70,7 @@ void FindingLines::print(const Player& player) {
         bool error = finding.severity == "error", warning = finding.severity == "warning";
         fails_ |= error || (warning && options_.fail_on == Severity::Warning);
         missing_ |= is_missing_asset(finding.code);
+        lacks_memory_ |= finding.code == "MEMORY";
         bool wanted = error || (!options_.quiet && (options_.verbose || warning));
         if (!wanted) continue;
         if (++counts_[finding.code] <= kMostOfACode || options_.verbose)
@@ -97,6 +98,7 @@ int run_headless(const PlayOptions& options, Player& player) {
     if (code == kExitOk && !options.screenshot.empty()) code = take_screenshots(options, player);
     lines.print(player);
     lines.summarize();
+    if (lines.lacks_memory()) return kExitRetry;
     if (code == kExitOk && lines.lacks_assets()) return kExitMissingAsset;
     return code == kExitOk && lines.fails() ? int(kExitSomeFailed) : code;
 }

@@ -20,12 +20,13 @@ class FindingLines {
     // There were errors, or what --fail-on names.
     bool fails() const { return fails_; }
     bool lacks_assets() const { return options_.strict && missing_; }
+    bool lacks_memory() const { return lacks_memory_; }
 
   private:
     FindingOptions options_;
     std::set<std::string> seen_;
     std::map<std::string, size_t> counts_;  // by code, of those to be printed
-    bool fails_ = false, missing_ = false;
+    bool fails_ = false, missing_ = false, lacks_memory_ = false;
 };
 
 // The script, then the screenshots. The program's exit code.

@@ -1,10 +1,9 @@
 // runtime/programs/play/main.cpp: kinora-play.
 #include <cstdio>
-#include <new>
 
 #include "runtime/base/memory/heap.h"
 #include "runtime/play/player.h"
-#include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/run_program.h"
 #include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/play/headless.h"
 #include "runtime/programs/play/options.h"
@@ -57,13 +56,9 @@ int play_scene(const PlayOptions& options) {
 int main(int argc, char** argv) {
     kinora::ready_standard_streams();
     kinora::use_large_pages();
-    kinora::PlayOptions options;
-    if (std::optional<int> code = kinora::parse_play_options(argc, argv, options))
-        return kinora::finish(*code, "kinora-play");
-    try {
-        return kinora::finish(kinora::play_scene(options), "kinora-play");
-    } catch (const std::bad_alloc&) {
-        std::fputs("kinora-play: out of memory\n", stderr);
-        return kinora::kExitRetry;
-    }
+    return kinora::run_program("kinora-play", [&]() -> int {
+        kinora::PlayOptions options;
+        if (std::optional<int> code = kinora::parse_play_options(argc, argv, options)) return *code;
+        return kinora::play_scene(options);
+    });
 }

@@ -20,8 +20,8 @@
 #include "runtime/images/texture_store.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
-#include "runtime/programs/common/finish.h"
 #include "runtime/programs/common/list_scene.h"
+#include "runtime/programs/common/run_program.h"
 #include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/band_writer.h"
@@ -48,6 +48,8 @@ std::atomic<int> g_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 void on_signal(int number) {
+    const bool again = number == SIGXCPU || number == SIGXFSZ;  // sent until the process ends
+    if (g_signal && again) return;
     if (g_signal) {
         unlink_temporaries();
         _exit(128 + g_signal);
@@ -385,9 +387,13 @@ bool Render::picture(FrameRecord& record, double time, const raytrace::Progress&
 void catch_signals() {
     struct sigaction action {};
     action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-    sigaction(SIGALRM, &action, nullptr);
+    for (int number : {SIGINT, SIGTERM, SIGALRM}) sigaction(number, &action, nullptr);
+    // What the caller has ignored (nohup) stays so.
+    for (int number : {SIGHUP, SIGXCPU, SIGXFSZ}) {
+        struct sigaction before {};
+        sigaction(number, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+    }
 }
 
 bool Render::list_frames() {
@@ -595,17 +601,14 @@ bool names_file(const char* word) {
 int main(int argc, char** argv) {
     kinora::ready_standard_streams();
     kinora::ready_heap(kinora::kHeapOfStart);
-    // Where a file is named a scene will be traced: not for --version.
-    std::jthread opening;
-    if (std::any_of(argv + std::min(argc, 1), argv + argc, kinora::names_file))
-        opening = kinora::raytrace::open_ray_tracer_early();
-    kinora::RenderOptions options;
-    if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
-        return kinora::finish(*code, "kinora-render");
-    try {
-        return kinora::finish(kinora::Render(options).run(), "kinora-render");
-    } catch (const std::bad_alloc&) {
-        std::fputs("kinora-render: out of memory\n", stderr);
-        return kinora::kExitRetry;
-    }
+    return kinora::run_program("kinora-render", [&]() -> int {
+        // Where a file is named a scene will be traced: not for --version.
+        std::jthread opening;
+        if (std::any_of(argv + std::min(argc, 1), argv + argc, kinora::names_file))
+            opening = kinora::raytrace::open_ray_tracer_early();
+        kinora::RenderOptions options;
+        if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
+            return *code;
+        return kinora::Render(options).run();
+    });
 }

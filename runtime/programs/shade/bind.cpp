@@ -57,8 +57,8 @@ int parse_param(const rsl::ShaderParameter& parameter, const std::string& text, 
         out.strings = parameter.type.is_array() ? split_texts(text) : std::vector{text};
         if (out.strings.size() == elements(parameter.type)) return kExitOk;
         return usage(fmt::format("--param {}: a {} takes {} texts, not {}; commas divide them",
-                                 out.name, rsl::type_name(parameter.type),
-                                 elements(parameter.type), out.strings.size()));
+                                 out.name, rsl::type_name(parameter.type), elements(parameter.type),
+                                 out.strings.size()));
     }
     std::optional<std::vector<double>> numbers = parse_numbers(text);
     if (!numbers)

@@ -61,9 +61,9 @@ std::vector<std::string> split_texts(const std::string& text) {
 
 std::unique_ptr<rsl::Shader> compile_with_co_shaders(const ShadeOptions& options,
                                                      ShadeSource& source) {
-    std::vector<rsl::LinkedSource> sources{
-        {"", source.view(), options.shader, texts_for(options, source, ""),
-         bound_counts(options, source, "")}};
+    std::vector<rsl::LinkedSource> sources{{"", source.view(), options.shader,
+                                            texts_for(options, source, ""),
+                                            bound_counts(options, source, "")}};
     std::deque<std::string> kept;  // the sources are views
     for (const auto& [handle, path] : options.co_shaders) {
         std::optional<std::string> bytes = read_regular_file(path, kMostSourceBytes);

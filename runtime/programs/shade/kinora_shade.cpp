@@ -2,12 +2,11 @@
 #include "runtime/programs/shade/kinora_shade.h"
 
 #include <cstdio>
-#include <new>
 #include <string_view>
 
 #include "runtime/base/memory/heap.h"
 #include "runtime/programs/common/exit_codes.h"
-#include "runtime/programs/common/finish.h"
+#include "runtime/programs/common/run_program.h"
 #include "runtime/programs/common/standard_streams.h"
 
 namespace kinora {
@@ -31,16 +30,12 @@ constexpr Command kCommands[] = {
 int main(int argc, char** argv) {
     kinora::ready_standard_streams();
     kinora::ready_heap(kinora::kHeapOfStart);
-    kinora::ShadeOptions options;
-    if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options))
-        return kinora::finish(*code, "kinora-shade");
-    try {
+    return kinora::run_program("kinora-shade", [&]() -> int {
+        kinora::ShadeOptions options;
+        if (std::optional<int> code = kinora::parse_shade_options(argc, argv, options))
+            return *code;
         for (const kinora::Command& command : kinora::kCommands)
-            if (command.name == options.command)
-                return kinora::finish(command.run(options), "kinora-shade");
-    } catch (const std::bad_alloc&) {
-        std::fputs("kinora-shade: out of memory\n", stderr);
-        return kinora::kExitRetry;
-    }
-    return kinora::kExitUsage;
+            if (command.name == options.command) return command.run(options);
+        return kinora::kExitUsage;
+    });
 }

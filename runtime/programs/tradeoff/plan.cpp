@@ -46,12 +46,10 @@ double combination_ms(const PlanInput& in, const Plan& plan) {
 
 void add_combinations(const PlanInput& in, Plan& plan) {
     plan.combination_samples = plan.final_samples > 0 ? plan.final_samples : kOwnFinalSamples;
-    const double left =
-        kReserve * in.budget_ms - in.used_ms - plan.reference_ms - plan.variants_ms;
+    const double left = kReserve * in.budget_ms - in.used_ms - plan.reference_ms - plan.variants_ms;
     const double each = combination_ms(in, plan);
     if (left <= 0) return;
-    plan.combinations =
-        each > 0 ? std::min(in.combinations, size_t(left / each)) : in.combinations;
+    plan.combinations = each > 0 ? std::min(in.combinations, size_t(left / each)) : in.combinations;
     plan.variants_ms += double(plan.combinations) * each;
 }
 
@@ -59,7 +57,8 @@ Plan planned(const PlanInput& in, const Choice& choice) {
     Plan plan;
     plan.final_samples = choice.final_samples;
     plan.preview_samples = choice.final_samples == 1 ? 1 : 0;
-    plan.width = std::max(int(std::lround(in.width * choice.scale)), std::min(in.width, kLeastSide));
+    plan.width =
+        std::max(int(std::lround(in.width * choice.scale)), std::min(in.width, kLeastSide));
     plan.height =
         std::max(int(std::lround(in.height * choice.scale)), std::min(in.height, kLeastSide));
     plan.frames = choice.frames;
@@ -74,8 +73,8 @@ Plan planned(const PlanInput& in, const Choice& choice) {
         if (variant.preset) most = std::max(most, variant.base_samples);
         plan.variants_ms += variant_ms(in, plan, variant);
     }
-    plan.least_ms = plan.reference_ms + double(plan.frames) * 3 *
-                                            (most * pixels * in.costs.sample + in.costs.frame);
+    plan.least_ms = plan.reference_ms +
+                    double(plan.frames) * 3 * (most * pixels * in.costs.sample + in.costs.frame);
     plan.fits = plan.reference_ms <= kReserve * kReferenceShare * in.budget_ms &&
                 in.used_ms + plan.reference_ms + plan.variants_ms <= kReserve * in.budget_ms;
     return plan;
@@ -137,8 +136,8 @@ double variant_ms(const PlanInput& in, const Plan& plan, const PlannedVariant& v
     };
     const double bases = 2.0 / double(kVariantsBetweenBases);
     const double once = render(v.samples, v.weight) + bases * render(v.base_samples, v.base_weight);
-    const double of_frame = double(rounds_of(v, plan)) * once + pixels * in.costs.errors_pixel +
-                            in.costs.frame;
+    const double of_frame =
+        double(rounds_of(v, plan)) * once + pixels * in.costs.errors_pixel + in.costs.frame;
     return in.costs.build + double(plan.frames) * of_frame;
 }
 

@@ -26,8 +26,9 @@ constexpr TradeMetric kMetrics[] = {
 };
 #undef ERROR_OF
 
-// Whether a setting kept the bits of its base's pictures though its knob trades them: this scene has
-// nothing that it loses, such as shadows. What it saves here is no reason to choose it for others.
+// Whether a setting kept the bits of its base's pictures though its knob trades them: this scene
+// has nothing that it loses, such as shadows. What it saves here is no reason to choose it for
+// others.
 bool is_lucky(const TradeRow& row) {
     return row.same_picture && row.variant.knob && row.variant.knob->error != "none";
 }

@@ -25,8 +25,8 @@ struct SmallFrame {
 bool same_frame(const SmallFrame& a, const SmallFrame& b) {
     return a.timed.whole && b.timed.whole && a.timed.work == b.timed.work &&
            a.film.rgba.size() == b.film.rgba.size() &&
-           std::memcmp(a.film.rgba.data(), b.film.rgba.data(),
-                       a.film.rgba.size() * sizeof(vec4)) == 0;
+           std::memcmp(a.film.rgba.data(), b.film.rgba.data(), a.film.rgba.size() * sizeof(vec4)) ==
+               0;
 }
 
 // Whether equal pictures and counts mean that the setting does nothing.
@@ -51,7 +51,8 @@ class Survey {
         found[kPreviewVariant].weight = weight_of(preview_);
         for (size_t v = 0; v < found.size(); ++v) {
             if (renders_.stopped() || watch_.ms() > request_.most_ms) break;
-            if (v != kPreviewVariant && v != kFinalVariant) found[v] = look_at(request_.variants[v]);
+            if (v != kPreviewVariant && v != kFinalVariant)
+                found[v] = look_at(request_.variants[v]);
         }
         return found;
     }

@@ -61,8 +61,8 @@ TrialCosts trial_costs(TradeRenders& renders, const TrialRequest& request) {
     picture_errors(trial_view(a), trial_view(b));
     costs.errors_pixel = watch.ms() / double(a.rgba.size());
     const double samples = kFewTrialSamples * 2 + kMoreTrialSamples;
-    const double large_ms = samples * double(request.width) * request.height *
-                            (costs.sample + costs.reference_sample);
+    const double large_ms =
+        samples * double(request.width) * request.height * (costs.sample + costs.reference_sample);
     if (width < request.width && large_ms < kLargeTrialShare * request.budget_ms)
         sample_costs(request.width, request.height);
     return costs;

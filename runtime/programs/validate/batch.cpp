@@ -137,13 +137,16 @@ ValidateTotals print_threaded(PieceOf piece_of, size_t threads, size_t count,
     auto work = [&] {
         while (auto index = queue.take()) queue.finish(*index, piece_of(*index));
     };
-    std::vector<std::thread> workers;
+    struct Workers : std::vector<std::thread> {
+        explicit Workers(Queue& of) : queue(of) {}
+        ~Workers() {
+            queue.stop();
+            for (std::thread& worker : *this) worker.join();
+        }
+        Queue& queue;
+    } workers(queue);
     for (size_t t = 0; t < threads; ++t) workers.emplace_back(work);
-    ValidateTotals totals =
-        print_report([&](size_t i) { return queue.wait_for(i); }, count, settings, out);
-    queue.stop();
-    for (std::thread& worker : workers) worker.join();
-    return totals;
+    return print_report([&](size_t i) { return queue.wait_for(i); }, count, settings, out);
 }
 
 }  // namespace

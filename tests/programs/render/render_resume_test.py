@@ -3,6 +3,7 @@ import json
 import os
 import random
 import shutil
+import resource
 import signal
 import struct
 import subprocess
@@ -157,7 +158,8 @@ class Resume(ProgramTest):
             self.assertEqual(self.pictures(), wanted)
 
     def test_signals_drop_the_frame_and_leave_no_temporary_file(self):
-        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGXFSZ):
+            code = 128 + number
             folder = self.folder / str(code)
             process = subprocess.Popen(
                 command("kinora-render", MATTE, "-o", folder / "f.####.png", "--frames", "1-100000",
@@ -169,6 +171,31 @@ class Resume(ProgramTest):
             process.send_signal(number)
             self.assertEqual(process.wait(timeout=30), code)
             self.assertGreater(len(self.pictures(folder)), 0)
+
+    def test_an_ignored_hangup_stays_ignored(self):
+        """As nohup wants it."""
+        process = subprocess.Popen(command("kinora-render", MATTE, "-o", self.folder / "f.png", *SMALL, "-q"),
+                                   preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        while process.poll() is None:
+            process.send_signal(signal.SIGHUP)
+            time.sleep(0.01)
+        self.assertEqual(process.returncode, 0)
+        self.assertEqual(list(self.pictures()), ["f.png"])
+
+    def test_a_limit_of_file_sizes_ends_the_run_after_whole_frames(self):
+        limit = 4096
+        process = subprocess.run(command("kinora-render", MATTE, "-o", self.folder / "f.####.exr", "--frames", "1-3",
+                                         "--size", "96x64", "--spp", "1", "-q"),
+                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual(process.returncode, 128 + signal.SIGXFSZ)
+        self.assertEqual(self.pictures(), {})
+
+    def test_a_limit_of_cpu_time_ends_the_run_after_whole_frames(self):
+        process = subprocess.run(command("kinora-render", MATTE, "-o", self.folder / "f.####.png", "--frames",
+                                         "1-100000", "--size", "96x64", "--spp", "4", "-q"),
+                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (2, 60)))
+        self.assertEqual(process.returncode, 128 + signal.SIGXCPU)
+        self.assertGreater(len(self.pictures()), 0)
 
     def test_a_tile_that_takes_minutes_does_not_hold_up_a_signal(self):
         self.check_stopped(RAYS, "--size", "32x32", "--spp", "100000")
