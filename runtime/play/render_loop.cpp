@@ -87,16 +87,17 @@ RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
     try {
         threads_.emplace_back([this] { end_late_frames(); });
     } catch (const std::system_error&) {  // as many threads as there may be
-        end_threads();
+        {
+            std::lock_guard lock(mutex_);
+            quit_ = true;
+        }
+        wanted_.notify_one();
+        threads_.front().join();
         throw;
     }
 }
 
 RenderLoop::~RenderLoop() {
-    end_threads();
-}
-
-void RenderLoop::end_threads() {
     {
         std::lock_guard lock(mutex_);
         quit_ = true;

@@ -78,7 +78,6 @@ class RenderLoop {
         StageTimes times;
     };
 
-    void end_threads();
     void want_picture();
     void take_order(const ViewOrder& order, const DisplaySettings& display);
     void run();
