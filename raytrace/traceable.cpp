@@ -14,6 +14,7 @@ namespace kinora::raytrace {
 namespace {
 
 typedef float float4 __attribute__((vector_size(16)));  // GCC and Clang, on every CPU
+typedef int int4 __attribute__((vector_size(16)));
 
 // Embree flushes denormal numbers to 0, corners and differences alike. A difference of more than
 // twice FLT_MIN stays one.
@@ -54,20 +55,21 @@ bool all_chunks(size_t count, const Look& look) {
 
 bool all_in_range(std::span<const vec4> positions) {
     return all_chunks(positions.size(), [&](size_t first, size_t last) {
-        bool all = true;
-        for (size_t i = first; i < last; ++i) all &= in_range(load(positions[i]));
-        return all;
+        const float4 most = {kLargest, kLargest, kLargest, kLargest};
+        int4 bad = {0, 0, 0, 0};
+        for (size_t i = first; i < last; ++i) bad |= ~(absolute(load(positions[i])) <= most);
+        return (bad[0] | bad[1] | bad[2]) == 0;
     });
 }
 
-// Two corners apart are enough; the third is loaded where the first two coincide.
+// One coordinate apart is enough, nearly always so of the first two corners.
 bool all_have_extent(std::span<const vec4> positions, std::span<const uint32_t> triangles) {
     return all_chunks(triangles.size() / 3, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const uint32_t* corner = &triangles[3 * i];
-            const float4 a = load(positions[corner[0]]), b = load(positions[corner[1]]);
-            if (longer(absolute(a - b))) continue;
-            if (!longer(absolute(a - load(positions[corner[2]])))) return false;
+            const vec4 &a = positions[corner[0]], &b = positions[corner[1]];
+            if (std::abs(a.x - b.x) > kLeastExtent) continue;
+            if (!is_traceable(a, b, positions[corner[2]])) return false;
         }
         return true;
     });
