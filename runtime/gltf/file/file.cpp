@@ -322,7 +322,6 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     error = check_gltf_json(file.json, is_binary(bytes));
     if (!error.empty()) return fail(error);
     const GltfIndices indices = check_gltf_indices(file.json);
-    report_indices(file, indices, diagnostics);
     if (!indices.not_a_list.empty()) {
         diagnostics
             .report(Code::GLTF_INVALID, gltf_location(file, indices.not_a_list),
@@ -330,6 +329,7 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
             .id_path = indices.not_a_list;
         return std::nullopt;
     }
+    report_indices(file, indices, diagnostics);
     Guard guard{options, diagnostics, file, {}};
     for (const GltfBuffer& buffer : gltf_buffers(file.json))
         if (!buffer.uri.empty()) guard.sizes[gltf_path(file, buffer.uri)] = buffer.bytes;

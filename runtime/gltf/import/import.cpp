@@ -1,6 +1,11 @@
 // runtime/gltf/import/import.cpp: a glTF scene as a SceneDescription, part by part.
 #include "runtime/gltf/import/import.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "runtime/description/findings.h"
 #include "runtime/gltf/import/animations.h"
 #include "runtime/gltf/import/cameras.h"
 #include "runtime/gltf/import/extras.h"
@@ -21,13 +26,24 @@ std::vector<bool> used_meshes(const tinygltf::Model& model, const GltfNodeTree& 
     return used;
 }
 
-void import_model(GltfFile& file, const ImportOptions& options, Diagnostics& diagnostics,
+// Whether the scene has a node, unless it has none by intention.
+bool has_its_nodes(const GltfNodeTree& tree) {
+    return tree.roots.empty() || std::ranges::any_of(tree.roots, [](int r) { return r >= 0; });
+}
+
+// False where there is nothing of the scene; a finding says why.
+bool import_model(GltfFile& file, const ImportOptions& options, Diagnostics& diagnostics,
                   SceneDescription& out) {
     const tinygltf::Model& model = file.model;
     GltfReport report(file, diagnostics);
     ByteBudget budget(file, report);
     UniqueIds ids;
     GltfNodeTree tree = read_node_tree(model, report);
+    if (!has_its_nodes(tree)) {
+        report.add(Code::GLTF_INVALID, fmt::format("/scenes/{}/nodes", shown_scene(model)),
+                   "none of the nodes that its scene names is there");
+        return false;
+    }
     KinoraAxes axes = find_axes(model, tree.roots).value_or(KinoraAxes());
     out.meter = options.meter.value_or(axes.meter);
     out.up_axis = options.up_axis.value_or(axes.up);
@@ -55,6 +71,7 @@ void import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
     animations.import_animations(ids);
     import_scene_extras(model, rsl, out);
     report.finish();
+    return true;
 }
 
 }  // namespace
@@ -66,7 +83,7 @@ std::optional<SceneDescription> import_gltf(const std::string& path, const Impor
     SceneDescription description;
     description.path = path;
     limit_files(description, file->directory, options);
-    import_model(*file, options, diagnostics, description);
+    if (!import_model(*file, options, diagnostics, description)) return std::nullopt;
     description.inputs = std::move(file->files);
     return description;
 }

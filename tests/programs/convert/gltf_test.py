@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from programs import SHADERS, SOURCE, ProgramTest, main, render
+from programs import SHADERS, SOURCE, ProgramTest, main, render, run
 
 BENDER = SOURCE / "assets/gltf/bender.glb"
 
@@ -43,6 +43,17 @@ class Gltf(ProgramTest):
         self.assertIn("clip ", text)
         self.assertIn("gltf_directional", text)
         self.assertIn("surface gltf_pbr", text)
+
+    def test_a_scene_whose_nodes_are_not_there_is_unreadable(self):
+        for nodes, roots, said in (({}, [0], "node 0 is not there"), ({"nodes": [{"name": "a"}]}, [5], "node 5 is not there"),
+                                   ({"nodes": {"a": 1}}, [0], "'nodes' is not an array"),
+                                   ({"nodes": [{}]}, [4294967295], "node 4294967295 is not there")):
+            with self.subTest(said):
+                scene = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": roots}], **nodes}
+                file = self.write("s.gltf", json.dumps(scene))
+                self.expect(render(file, "-o", self.folder / "s.png"), 3, said)
+                self.expect(run("kinora-convert", file, self.folder / "s.dae"), 3, said)
+                self.assertFalse((self.folder / "s.dae").exists())
 
     def test_frames_move_and_a_picture_repeats(self):
         first, again = (self.picture(BENDER, "--frames", "1") for _ in range(2))

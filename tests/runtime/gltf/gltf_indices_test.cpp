@@ -131,6 +131,20 @@ TEST(GltfIndices, TextThatEndsAnywhereEndsTheCheck) {
     for (size_t end = 0; end < text.size(); end += 7) check_gltf_indices(text.substr(0, end));
 }
 
+TEST(GltfIndices, ASceneWithoutAnyOfItsNodesIsRefused) {
+    for (const char* nodes : {R"("nodes":[{"mesh":0}],)", ""})
+        for (const char* root : {"5", "4294967295", "-1"}) {
+            const std::string text = std::string(R"({"asset":{"version":"2.0"},)") + nodes +
+                                     R"("scene":0,"scenes":[{"nodes":[)" + root + "]}]}";
+            auto d = described(text, ".gltf");
+            EXPECT_FALSE(d->scene) << text;
+            EXPECT_EQ(d->count("GLTF_REFERENCE"), 1) << d->findings();
+            EXPECT_EQ(d->count("GLTF_INVALID"), 1) << d->findings();
+            EXPECT_NE(d->findings().find(std::string("node ") + root + " is not there"),
+                      std::string::npos);
+        }
+}
+
 // In a .glb the JSON becomes longer than its chunk was.
 TEST(GltfIndices, AnIndexOfAGlbThatNamesNothingLeavesTheRest) {
     GltfText g;
