@@ -174,7 +174,7 @@ class Resume(ProgramTest):
 
     def test_an_ignored_hangup_stays_ignored(self):
         """As nohup wants it."""
-        process = subprocess.Popen(command("kinora-render", MATTE, "-o", self.folder / "f.png", *SMALL, "-q"),
+        process = subprocess.Popen(command("kinora-render", MATTE, "-o", self.folder / "f.png", *SMALL),
                                    preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         while process.poll() is None:
             process.send_signal(signal.SIGHUP)
@@ -183,7 +183,7 @@ class Resume(ProgramTest):
         self.assertEqual(list(self.pictures()), ["f.png"])
 
     def test_a_limit_of_file_sizes_ends_the_run_after_whole_frames(self):
-        limit = 4096
+        limit = 1000
         process = subprocess.run(command("kinora-render", MATTE, "-o", self.folder / "f.####.exr", "--frames", "1-3",
                                          "--size", "96x64", "--spp", "1", "-q"),
                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
@@ -193,7 +193,7 @@ class Resume(ProgramTest):
     def test_a_limit_of_cpu_time_ends_the_run_after_whole_frames(self):
         process = subprocess.run(command("kinora-render", MATTE, "-o", self.folder / "f.####.png", "--frames",
                                          "1-100000", "--size", "96x64", "--spp", "4", "-q"),
-                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (2, 60)))
+                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (1, 60)))
         self.assertEqual(process.returncode, 128 + signal.SIGXCPU)
         self.assertGreater(len(self.pictures()), 0)
 
