@@ -45,12 +45,13 @@ void FindingPrinter::print(const Diagnostics& diagnostics) {
         missing_ |= missing;
         if (missing && options_.strict) finding.severity = Severity::Error;
         ++counts_[size_t(finding.severity)];
-        if (admit(finding)) std::fputs(format_finding(finding, diagnostics.files).c_str(), stderr);
+        if (!options_.silent && admit(finding))
+            std::fputs(format_finding(finding, diagnostics.files).c_str(), stderr);
     }
 }
 
 void FindingPrinter::summarize() {
-    if (!options_.quiet) {
+    if (!options_.quiet && !options_.silent) {
         for (const auto& [code, count] : hidden_of_)
             std::fprintf(stderr, "kinora: %zu more of %s; -v shows all\n", count,
                          std::string(code).c_str());

@@ -16,6 +16,7 @@ namespace kinora {
 
 struct FindingOptions {
     bool quiet = false;                  // errors only
+    bool silent = false;                 // none: they are told elsewhere
     bool verbose = false;                // all, hints too
     bool strict = false;                 // what is left out or missing is an error
     Severity fail_on = Severity::Error;  // the least that makes the exit code 1

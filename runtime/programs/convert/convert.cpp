@@ -3,17 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "collada/document/open_scene.h"
 #include "collada/document/write.h"
 #include "runtime/base/display_path.h"
 #include "runtime/base/file_extension.h"
-#include "runtime/base/files/temporary_file.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
 #include "runtime/base/regular_file.h"
@@ -25,21 +25,13 @@
 #include "runtime/load/import_scene.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/convert/worn_shaders_p.h"
+#include "runtime/programs/convert/write_whole_p.h"
 
 namespace kinora {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// A file that has its name is whole.
-int write_whole(const std::string& path, std::string_view bytes) {
-    int error = make_folder_of(path);
-    if (error == 0) error = write_whole_file(path, bytes);
-    if (error == 0) return kExitOk;
-    fmt::print(stderr, "kinora: error: cannot write '{}': {}\n", path, std::strerror(error));
-    return error == ENOSPC || error == EDQUOT ? kExitRetry : kExitUnwritable;
-}
 
 // Whether a .kmz shows more than one document as it stands: then no document holds it all.
 bool places_models(const std::string& path) {
@@ -52,8 +44,10 @@ bool places_models(const std::string& path) {
 class Conversion {
   public:
     // What the reader makes of the scene matters less here than what becomes of it.
-    explicit Conversion(const ConvertOptions& options)
-        : options_(options), printer_(options.findings, options.input, &Code::CONVERT_EXTRAS) {
+    Conversion(const ConvertOptions& options, Diagnostics& diagnostics)
+        : options_(options),
+          diag_(diagnostics),
+          printer_(options.findings, options.input, &Code::CONVERT_EXTRAS) {
         diag_.judge(options.findings.judgement());
     }
 
@@ -224,7 +218,7 @@ class Conversion {
     }
 
     const ConvertOptions& options_;
-    Diagnostics diag_;
+    Diagnostics& diag_;
     FindingPrinter printer_;
     SceneDescription scene_;
     std::map<std::string, std::string> unpacked_;  // where it goes, from the output; the file
@@ -232,8 +226,13 @@ class Conversion {
 
 }  // namespace
 
-int convert(const ConvertOptions& options) {
-    return Conversion(options).run();
+int convert(const ConvertOptions& options, Diagnostics& diagnostics) {
+    try {
+        return Conversion(options, diagnostics).run();
+    } catch (const std::bad_alloc&) {  // ends this file, not the folder that it is of
+        std::fputs("kinora: error: out of memory\n", stderr);
+        return kExitRetry;
+    }
 }
 
 }  // namespace kinora

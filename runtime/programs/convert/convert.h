@@ -32,13 +32,21 @@ struct ConvertOptions {
     int threads = 0;                          // 0: all
     FindingOptions findings;
     bool stats = false, stats_json = false;
+    // -r: input and output are folders.
+    bool recursive = false;
+    std::string to;      // the extension of the outputs: glb, gltf or dae
+    int jobs = 1;        // files at once
+    std::string report;  // a file; "" for none
 };
 
 // Reads the command line. Returns an exit code when there is nothing to do.
 std::optional<int> parse_convert_options(int argc, char** argv, ConvertOptions& options);
 
-// Converts and returns the exit code; findings go to stderr.
-int convert(const ConvertOptions& options);
+// Converts and returns the exit code; findings go to `diagnostics` and to stderr.
+int convert(const ConvertOptions& options, Diagnostics& diagnostics);
+
+// -r: converts all scene files below the input folder. A file that fails costs that file alone.
+int convert_folder(const ConvertOptions& options);
 
 // .dae to .dae: the document with the options worked into it, in canonical form. Nothing on an
 // error, which was reported.
