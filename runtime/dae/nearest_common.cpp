@@ -15,6 +15,21 @@ namespace {
 // Past this a highlight is a point.
 constexpr double kMostShininess = 1000;
 
+// What a metal reflects of light from everywhere, as gltf_pbr.sl has it (reflected_everywhere)
+// where the surface is seen under 45 degrees; the color is a factor.
+double metal_albedo(double rough) {
+    constexpr double kNV = 0.7;
+    double rx = 1 - rough, ry = 0.0425 - 0.0275 * rough, rz = 1.04 - 0.572 * rough;
+    double a = std::min(rx * rx, std::exp2(-9.28 * kNV)) * rx + ry;
+    return rz - 1.04 * a;
+}
+
+// Which part of that a diffuse color shows: a rough metal spreads all light, a smooth one mirrors
+// lamps as points, and its surroundings, which stand in the diffuse color, are darker than lamps.
+double metal_diffusion(double rough) {
+    return 0.3 + 0.6 * rough * rough;
+}
+
 class GltfToCommon {
   public:
     GltfToCommon(const ShaderUse& from, const SceneDescription& description,
@@ -111,11 +126,15 @@ class GltfToCommon {
         // Where a map says what is metal, most is none.
         double metal = mapped ? 0 : std::clamp(number("metallic", 1), 0.0, 1.0);
         dvec3 base = color("base_color", 1);
+        double rough = std::clamp(number("roughness", 1), 0.0, 1.0);
         bool textured = !text("base_color_map").empty();
+        dvec3 mirrored = textured ? dvec3(0.0) : base * (metal * metal_albedo(rough));
         dvec3 factor = textured ? base : base * (1 - metal);
-        light("ambient_color", "base_color", factor);
-        light("diffuse", "base_color", factor);
+        light("ambient_color", "base_color", factor + mirrored);
+        light("diffuse", "base_color", factor + mirrored * metal_diffusion(rough));
         if (textured && metal > 0) to_.lost.push_back("metal under a texture");
+        if (!textured && metal > 0)
+            to_.lost.push_back("that it is metal (a diffuse color and a highlight come near it)");
         if (dvec3 glow = color("emissive", 0); glow != dvec3(0.0))
             light("emission", "emissive", glow);
 
@@ -124,7 +143,6 @@ class GltfToCommon {
             number("specular", 1) *
             glm::min(number("dielectric_F0", 0.04) * color("specular_color", 1), dvec3(1.0));
         dvec3 F0 = glm::mix(dielectric, textured ? dielectric : base, metal);
-        double rough = std::clamp(number("roughness", 1), 0.0, 1.0);
         double alpha2 = std::max(std::pow(rough, 4), 2 / (kMostShininess + 2));
         set("specular", F0 / (4 * alpha2));
         set("shininess", {2 / alpha2 - 2});
