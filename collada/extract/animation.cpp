@@ -158,6 +158,8 @@ void AnimationReader::read_clips(uint32_t doc) {
             Clip clip;
             clip.id = element.value("id");
             clip.name = element.value("name");
+            const Element* own = extra_technique(element, "KINORA");
+            if (own && own->child("name")) clip.name = own->child("name")->text;
             clip.where = x_.where(link);
             double last_key = 0;
             for (const Element& child : element.children()) {

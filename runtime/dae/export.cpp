@@ -16,6 +16,7 @@
 #include "runtime/dae/export_p.h"
 #include "runtime/description/display_color.h"
 #include "runtime/description/findings.h"
+#include "runtime/description/picture_rules.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {
@@ -38,6 +39,14 @@ std::string input(const char* semantic, const std::string& source, int offset, u
 
 namespace {
 
+// The digits of a float; all of the double that it is where these are few more, as of
+// 3512345.25, whose neighbours among the floats are far.
+std::string float_text(float x) {
+    constexpr size_t kFewMore = 3;
+    std::string digits = fmt::format("{}", x), all = fmt::format("{}", double(x));
+    return all.size() <= digits.size() + kFewMore ? all : digits;
+}
+
 // XML Schema 1.0, 3.2.5: what xs:double calls the numbers that have no digits.
 template <class T>
 std::string list_text(std::span<const T> numbers, auto&& digits_of) {
@@ -53,14 +62,13 @@ std::string list_text(std::span<const T> numbers, auto&& digits_of) {
 
 std::string number_text(std::span<const double> numbers) {
     return list_text(numbers, [](double x) {
-        // What glTF has as a float stays that float; more digits would be of no use.
-        return double(float(x)) == x ? fmt::format("{}", float(x))
+        return double(float(x)) == x ? float_text(float(x))
                                      : collada::shortest_number(fmt::format("{:.15g}", x));
     });
 }
 
 std::string number_text(std::span<const float> numbers) {
-    return list_text(numbers, [](float x) { return fmt::format("{}", x); });
+    return list_text(numbers, float_text);
 }
 
 std::string float_source(const std::string& id, const std::string& numbers, size_t count,
@@ -103,6 +111,9 @@ std::string matrix_text(const dmat4& m) {
 }
 
 constexpr const char* kXyz[] = {".X", ".Y", ".Z"};
+// As Maya's and Max's exporters say it, and collada/extract/nodes.cpp reads it.
+constexpr const char* kHidden =
+    "<extra><technique profile=\"FCOLLADA\"><visibility>0</visibility></technique></extra>";
 constexpr const char* kRotate[] = {".X", ".Y", ".Z", ".ANGLE"};
 
 }  // namespace
@@ -292,7 +303,8 @@ std::string ColladaExporter::node(uint32_t index) {
         // A skin without bind shape would follow its node, too (docs/format.md#skins-and-morphs):
         // it stands alone.
         if (use.skin != kNone)
-            skinned_ += xml("node", attribute("id", id(own + "-skin", "skin")), instance);
+            skinned_ += xml("node", attribute("id", id(own + "-skin", "skin")),
+                            instance + (is_below_hidden(index) ? kHidden : ""));
         else if (!is_identity(use.conversion))
             nodes += xml("node", "", xml("matrix", "", matrix_text(use.conversion)) + instance);
         else
@@ -309,8 +321,15 @@ std::string ColladaExporter::node(uint32_t index) {
     }
     if (!extra.empty())
         extra = xml("extra", "", xml("technique", attribute("profile", "RSL"), extra));
+    if (hides(definition)) extra += kHidden;
     return xml("node", attributes,
                content + cameras + controllers + geometries + lights + nodes + extra);
+}
+
+bool ColladaExporter::is_below_hidden(uint32_t node) const {
+    for (; node != kNone; node = parents_[node])
+        if (hides(description_.nodes[node])) return true;
+    return false;
 }
 
 std::string ColladaExporter::library(const char* name, const std::string& content) const {
@@ -350,17 +369,20 @@ ColladaExport ColladaExporter::run() {
     picture.insert(picture.end(), description_.picture.imagers.begin(),
                    description_.picture.imagers.end());
     if (tops.empty()) tops = "<node/>";
+    tops += rsl_extra(picture, "scene");
+    CurveList::Text curves = animation_.text(diagnostics_);
     std::string scene = xml("visual_scene", attribute("id", id("scene", "scene")),
-                            tops + rsl_extra(picture, "scene"));
+                            tops + animation_.played_range());
     std::string scene_id = scene.substr(scene.find('"') + 1);
     scene_id = scene_id.substr(0, scene_id.find('"'));
     std::string text =
         "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">" +
-        asset() + library("animations", animation_.text(diagnostics_)) +
-        library("cameras", cameras) + library("lights", lights) + library("images", images_) +
-        library("materials", materials_) + library("effects", effects_) +
-        library("geometries", geometries) + library("controllers", controllers_) +
-        library("nodes", shared) + library("visual_scenes", scene) +
+        asset() + library("animations", curves.animations) +
+        library("animation_clips", curves.clips) + library("cameras", cameras) +
+        library("lights", lights) + library("images", images_) + library("materials", materials_) +
+        library("effects", effects_) + library("geometries", geometries) +
+        library("controllers", controllers_) + library("nodes", shared) +
+        library("visual_scenes", scene) +
         xml("scene", "", xml("instance_visual_scene", attribute("url", "#" + scene_id), "")) +
         "</COLLADA>";
     Diagnostics quiet;

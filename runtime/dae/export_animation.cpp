@@ -8,176 +8,15 @@
 #include "runtime/dae/export_animation_p.h"
 #include "runtime/dae/export_p.h"
 #include "runtime/description/findings.h"
-#include "runtime/scene/transforms.h"
+#include "runtime/description/play_range.h"
 
 namespace kinora {
 
 namespace {
 
-constexpr int kPiecesOfCurve = 16;   // of a curved rotation: straight pieces a segment
 constexpr double kAxisError = 3e-7;  // of a unit axis; glTF's quaternions are floats
-constexpr double kHalfTurn = 1e-12;  // |cos| of half the turn that counts as one (anim::slerp)
-
-// The arrays of a <sampler>.
-struct Keys {
-    std::vector<double> times, values, in, out;  // tangents as (time, value) pairs
-    std::vector<std::string> interpolations;
-    size_t stride = 1;
-    bool curved = false;
-
-    void add(double time, const char* interpolation) {
-        times.push_back(time);
-        interpolations.push_back(interpolation);
-    }
-};
-
-bool is_curve(anim::Interpolation i) {
-    return i != anim::Interpolation::Step && i != anim::Interpolation::Linear;
-}
-
-const char* straight(anim::Interpolation i) {
-    return i == anim::Interpolation::Step ? "STEP" : "LINEAR";
-}
-
-// One component: any cubic is a BEZIER with absolute control points.
-Keys component_keys(const anim::Sampler& s, uint32_t component) {
-    Keys keys;
-    size_t count = s.times.size();
-    for (size_t k = 0; k < count; ++k) {
-        double value = s.values[k * s.stride + component];
-        keys.add(s.times[k], straight(s.interpolations[k]));
-        keys.values.push_back(value);
-        keys.in.insert(keys.in.end(), {s.times[k], value});
-        keys.out.insert(keys.out.end(), {s.times[k], value});
-    }
-    for (size_t k = 0; k + 1 < count; ++k) {
-        if (!is_curve(s.interpolations[k])) continue;
-        const anim::CurveSegment& c = s.curves[k * s.stride + component];
-        keys.curved = true;
-        keys.interpolations[k] = "BEZIER";
-        keys.out[2 * k] = s.times[k] + c.time[0];
-        keys.out[2 * k + 1] = c.value[1];
-        keys.in[2 * k + 2] = s.times[k] + c.time[1];
-        keys.in[2 * k + 3] = c.value[2];
-    }
-    return keys;
-}
-
-// Keys without curves, of several numbers each.
-Keys whole_keys(const anim::Sampler& s, uint32_t component, uint32_t count) {
-    Keys keys;
-    keys.stride = count;
-    for (size_t k = 0; k < s.times.size(); ++k) {
-        keys.add(s.times[k], straight(s.interpolations[k]));
-        auto first = s.values.begin() + std::ptrdiff_t(k * s.stride + component);
-        keys.values.insert(keys.values.end(), first, first + count);
-    }
-    return keys;
-}
-
-// The times at which a rotation is written: curves in straight pieces.
-template <class F>
-Keys rotation_keys(const anim::Sampler& s, F&& add) {
-    Keys keys;
-    auto at = [&](double time, const char* interpolation) {
-        double q[4];
-        anim::evaluate(s, time, 0, q);
-        keys.add(time, interpolation);
-        add(keys.values, q);
-    };
-    for (size_t k = 0; k < s.times.size(); ++k) {
-        at(s.times[k], straight(s.interpolations[k]));
-        if (k + 1 == s.times.size() || !is_curve(s.interpolations[k])) continue;
-        keys.curved = true;
-        for (int i = 1; i < kPiecesOfCurve; ++i)
-            at(s.times[k] + (s.times[k + 1] - s.times[k]) * i / kPiecesOfCurve, "LINEAR");
-    }
-    return keys;
-}
-
-// LINEAR matrices turn at constant speed, as slerp does.
-Keys matrix_keys(const anim::Sampler& s) {
-    Keys keys = rotation_keys(s, [](std::vector<double>& values, const double* q) {
-        dmat4 m = transform_matrix(TransformKind::Quaternion, q);
-        for (int r = 0; r < 4; ++r)
-            for (int c = 0; c < 4; ++c) values.push_back(float(m[c][r]));  // as good as its source
-    });
-    keys.stride = 16;
-    return keys;
-}
-
-// Angles on one axis, each from the one before by the way that slerp goes.
-Keys angle_keys(const anim::Sampler& s, const dvec3& axis) {
-    Keys keys = rotation_keys(s, [&](std::vector<double>& values, const double* q) {
-        double angle = angle_about(axis, q);
-        if (!values.empty()) {
-            double turn = std::remainder(angle - values.back(), 360.0);
-            if (std::abs(std::cos(radians(0.5 * turn))) <= kHalfTurn) turn = 180;
-            angle = values.back() + turn;
-        }
-        values.push_back(angle);
-    });
-    for (double& angle : keys.values) angle = float(angle);
-    return keys;
-}
-
-// <animation>s of the same key times: they share what is equal.
-class AnimationGroup {
-  public:
-    AnimationGroup(std::string id, const Keys& keys) : id_(std::move(id)) {
-        size_t count = keys.times.size();
-        std::string kinds;
-        for (const std::string& i : keys.interpolations) kinds += i + " ";
-        sources_ = float_source(id_ + "-input", number_text(keys.times), count, {"TIME"}) +
-                   fmt::format(
-                       "<source id=\"{0}-kinds\"><Name_array id=\"{0}-kinds-array\" "
-                       "count=\"{1}\">{2}</Name_array><technique_common><accessor "
-                       "source=\"#{0}-kinds-array\" count=\"{1}\" stride=\"1\"><param "
-                       "name=\"INTERPOLATION\" type=\"name\"/></accessor></technique_common>"
-                       "</source>",
-                       id_, count, kinds);
-    }
-
-    void add(const Keys& keys, const std::string& target) {
-        std::string own = fmt::format("{}-{}", id_, number_++);
-        size_t count = keys.times.size();
-        bool matrix = keys.stride == 16;
-        std::vector<std::string> params{"VALUE"};
-        if (keys.stride == 3) params = {"X", "Y", "Z"};
-        if (keys.stride == 4) params = {"X", "Y", "Z", "ANGLE"};
-        std::string inputs = input("INPUT", id_ + "-input");
-        auto source = [&](const char* semantic, const char* name,
-                          const std::vector<double>& numbers, const std::vector<std::string>& named,
-                          const char* type) {
-            sources_ += float_source(own + name, number_text(numbers), count, named, type);
-            inputs += input(semantic, own + name);
-        };
-        source("OUTPUT", "", keys.values, params, matrix ? "float4x4" : "float");
-        inputs += input("INTERPOLATION", id_ + "-kinds");
-        if (keys.curved && !keys.in.empty()) {
-            source("IN_TANGENT", "-in", keys.in, {"X", "Y"}, "float");
-            source("OUT_TANGENT", "-out", keys.out, {"X", "Y"}, "float");
-        }
-        samplers_ += xml("sampler", attribute("id", own + "-sampler"), inputs);
-        channels_ +=
-            fmt::format("<channel source=\"#{}-sampler\"{}/>", own, attribute("target", target));
-    }
-
-    std::string text() const {
-        return xml("animation", attribute("id", id_), sources_ + samplers_ + channels_);
-    }
-
-  private:
-    std::string id_, sources_, samplers_, channels_;
-    size_t number_ = 0;
-};
 
 }  // namespace
-
-double angle_about(const dvec3& axis, const double* q) {
-    double along = q[0] * axis.x + q[1] * axis.y + q[2] * axis.z;
-    return 2 * std::atan2(along, q[3]) * (180 / kPi);
-}
 
 std::string UniqueNames::name(const std::string& wanted, const char* kind) {
     std::string name = wanted.empty() ? kind : xml_name(wanted);
@@ -186,10 +25,19 @@ std::string UniqueNames::name(const std::string& wanted, const char* kind) {
     return unique;
 }
 
+AnimationWriter::AnimationWriter(const SceneDescription& description, UniqueNames& names)
+    : description_(description), names_(names), animated_(description.animated) {
+    animated_.resize(description.values.size(), false);
+    for (const ClipDefinition& clip : description.clips)
+        if (clip.animation)
+            for (const anim::Animation::Write& write : clip.animation->writes)
+                animated_[write.slot] = true;
+}
+
 bool AnimationWriter::moves(ValueSlot slot) const {
     for (uint32_t k = 0; slot.present() && k < slot.count; ++k) {
         uint32_t number = slot.offset + k;
-        if (number < description_.animated.size() && description_.animated[number]) return true;
+        if (number < animated_.size() && animated_[number]) return true;
     }
     return false;
 }
@@ -210,21 +58,31 @@ void AnimationWriter::name(ValueSlot slot, const std::string& target, const char
     }
 }
 
-const anim::Sampler* AnimationWriter::sampler_of(uint32_t quaternion) const {
-    for (const anim::Channel& c : description_.animation.channels)
-        if (c.slot == quaternion && c.count == 4)
-            return &description_.animation.samplers[c.sampler];
-    return nullptr;
+// Of the scene and of all clips.
+std::vector<const anim::Sampler*> AnimationWriter::samplers_of(uint32_t quaternion) const {
+    std::vector<const anim::Sampler*> samplers;
+    auto look = [&](const anim::Animation& animation) {
+        for (const anim::Channel& c : animation.channels)
+            if (c.slot == quaternion && c.count == 4)
+                samplers.push_back(&animation.samplers[c.sampler]);
+    };
+    look(description_.animation);
+    for (const ClipDefinition& clip : description_.clips)
+        if (clip.animation) look(*clip.animation);
+    return samplers;
 }
 
 std::optional<dvec3> AnimationWriter::hinge(uint32_t quaternion) const {
     std::vector<double> turns(&description_.values[quaternion],
                               &description_.values[quaternion] + 4);
     if (moves({quaternion, 4})) {
-        const anim::Sampler* sampler = sampler_of(quaternion);
-        if (!sampler || sampler->stride != 4) return std::nullopt;
-        rotation_keys(*sampler,
-                      [&](auto&, const double* q) { turns.insert(turns.end(), q, q + 4); });
+        std::vector<const anim::Sampler*> samplers = samplers_of(quaternion);
+        if (samplers.empty()) return std::nullopt;
+        for (const anim::Sampler* sampler : samplers) {
+            if (sampler->stride != 4) return std::nullopt;
+            std::vector<double> own = written_rotations(*sampler);
+            turns.insert(turns.end(), own.begin(), own.end());
+        }
     }
     dvec3 axis(0);  // of the widest turn: the rest is then no worse
     std::vector<dvec3> axes;
@@ -250,62 +108,112 @@ void AnimationWriter::name_rotation(uint32_t quaternion, const std::string& targ
     targets_[quaternion] = {target, "", quaternion, 4, true, axis};
 }
 
-std::string AnimationWriter::text(Diagnostics& diagnostics) {
-    std::vector<AnimationGroup> groups;
-    std::map<std::string, size_t> by_times;
-    uint32_t sampled = 0;
-    size_t unnamed = 0;
-    const anim::Animation& animation = description_.animation;
-    auto add = [&](const Keys& keys, const std::string& target) {
-        std::string key = number_text(keys.times);
-        for (const std::string& i : keys.interpolations) key += " " + i;
-        auto [group, fresh] = by_times.try_emplace(std::move(key), groups.size());
-        if (fresh) groups.emplace_back(names_.name("animation", "animation"), keys);
-        groups[group->second].add(keys, target);
-    };
+// Calls add(WrittenCurve) for all that a channel writes.
+template <class F>
+void AnimationWriter::for_each_curve(const anim::Animation& animation, F&& add) {
     for (const anim::Channel& c : animation.channels) {
         const anim::Sampler& s = animation.samplers[c.sampler];
         auto first = targets_.find(c.slot);
         if (s.empty()) continue;
         if (first == targets_.end()) {
-            ++unnamed;
+            unnamed_.insert(c.slot);
             continue;
         }
         const Target& target = first->second;
+        std::vector<uint32_t> numbers;
+        for (uint32_t i = 0; i < c.count; ++i) numbers.push_back(c.slot + i * c.slot_step);
         if (target.rotation) {
             Keys keys = target.hinge ? angle_keys(s, *target.hinge) : matrix_keys(s);
-            sampled += keys.curved;
-            add(keys, target.path + (target.hinge ? ".ANGLE" : ""));
+            if (keys.curved) sampled_.insert(c.slot);
+            add({target.path + (target.hinge ? ".ANGLE" : ""), std::move(keys), numbers, {}});
             continue;
         }
         bool curved = std::any_of(s.interpolations.begin(), s.interpolations.end(), is_curve);
         bool whole = c.slot_step == 1 && target.first == c.slot && target.count == c.count &&
                      c.count > 1 && s.stride >= c.component + c.count;
         if (whole && !curved) {
-            add(whole_keys(s, c.component, c.count), target.path);
+            add({target.path, whole_keys(s, c.component, c.count), numbers, {}});
             continue;
         }
         for (uint32_t i = 0; i < c.count; ++i) {
-            auto one = targets_.find(c.slot + i * c.slot_step);
+            auto one = targets_.find(numbers[i]);
             if (one == targets_.end())
-                ++unnamed;
+                unnamed_.insert(numbers[i]);
             else
-                add(component_keys(s, c.component + i), one->second.path + one->second.member);
+                add({one->second.path + one->second.member,
+                     component_keys(s, c.component + i),
+                     {numbers[i]},
+                     {}});
         }
     }
-    if (unnamed)
+}
+
+// What a clip moves and the scene does not stands still without the clip: where all animations
+// play, one key with the rest value has the last word.
+void AnimationWriter::hold_still(Diagnostics& diagnostics) {
+    std::vector<uint32_t> alone = curves_.moved_by_clips_alone();
+    uint32_t clip = curves_.clip_of_scene(description_);
+    if (alone.empty()) return;
+    if (clip == kNone) {
         diagnostics.report(Code::CONVERT_LOST, Location{}, "the animation",
-                           fmt::format("{} animated parameters", unnamed));
-    if (sampled)
-        diagnostics.report(Code::CONVERT_SAMPLED, Location{}, sampled,
+                           fmt::format("that {} numbers move in clips alone", alone.size()));
+        return;
+    }
+    double begin = anim::time_range(description_.animation).begin;
+    for (uint32_t number : alone) {
+        auto found = targets_.find(number);
+        if (found == targets_.end()) continue;  // the x of a quaternion stands for all of it
+        const Target& target = found->second;
+        const double* rest = &description_.values[number];
+        WrittenCurve still{target.path + target.member, {}, {number}, {}};
+        still.keys.add(begin, "STEP");
+        if (target.hinge) {
+            still.target += ".ANGLE";
+            still.keys.values.push_back(angle_about(*target.hinge, rest));
+        } else if (target.rotation) {
+            still.keys.stride = 16;
+            add_matrix(rest, still.keys.values);
+        } else {
+            still.keys.values.push_back(*rest);
+        }
+        curves_.add(still, clip);
+        curves_.add(std::move(still), kNone);
+    }
+}
+
+CurveList::Text AnimationWriter::text(Diagnostics& diagnostics) {
+    for (uint32_t k = 0; k < description_.clips.size(); ++k)
+        if (const auto& own = description_.clips[k].animation)
+            for_each_curve(*own, [&](WrittenCurve curve) { curves_.add(std::move(curve), k); });
+    for_each_curve(description_.animation,
+                   [&](WrittenCurve curve) { curves_.add(std::move(curve), kNone); });
+    hold_still(diagnostics);
+    if (!unnamed_.empty())
+        diagnostics.report(Code::CONVERT_LOST, Location{}, "the animation",
+                           fmt::format("{} animated parameters", unnamed_.size()));
+    if (!sampled_.empty())
+        diagnostics.report(Code::CONVERT_SAMPLED, Location{}, sampled_.size(),
                            1.0 / (kPiecesOfCurve * kPiecesOfCurve));
-    if (description_.clips.size() > 1)
-        diagnostics.report(
-            Code::CONVERT_LOST, Location{}, "the animation",
-            fmt::format("{} clips that move different things", description_.clips.size()));
-    std::string content;
-    for (const AnimationGroup& group : groups) content += group.text();
-    return content;
+    return curves_.text(description_, names_);
+}
+
+// The range that is played, where a reader would not find it in the keys.
+std::string AnimationWriter::played_range() const {
+    const SceneDescription& d = description_;
+    bool is_given = d.start_time || d.end_time;
+    std::string numbers;
+    auto add = [&](const char* name, double value) {
+        numbers += xml(name, "", number_text(std::span<const double>(&value, 1)));
+    };
+    PlayRange range = play_range(d);
+    if (is_given || curves_.leaves(anim::time_range(d.animation))) {
+        add("start_time", range.start);
+        add("end_time", range.end);
+    }
+    if (d.frame_rate) add("frame_rate", *d.frame_rate);
+    return numbers.empty()
+               ? ""
+               : xml("extra", "", xml("technique", attribute("profile", "FCOLLADA"), numbers));
 }
 
 }  // namespace kinora

@@ -5,8 +5,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/dae/export_clips_p.h"
 #include "runtime/description/scene_description.h"
 
 namespace kinora {
@@ -23,8 +25,7 @@ class UniqueNames {
 // Elements say which numbers they hold; text() then addresses those that channels write.
 class AnimationWriter {
   public:
-    AnimationWriter(const SceneDescription& description, UniqueNames& names)
-        : description_(description), names_(names) {}
+    AnimationWriter(const SceneDescription& description, UniqueNames& names);
 
     // A channel writes one of the numbers: its element needs a sid.
     bool moves(ValueSlot slot) const;
@@ -36,8 +37,10 @@ class AnimationWriter {
     // Names a quaternion that stands as a <rotate> about this axis, or as a <matrix>.
     void name_rotation(uint32_t quaternion, const std::string& target, std::optional<dvec3> axis);
 
-    // <animation>s, and CONVERT_LOST for what cannot be said.
-    std::string text(Diagnostics& diagnostics);
+    // <animation>s and <animation_clip>s, and CONVERT_LOST for what cannot be said.
+    CurveList::Text text(Diagnostics& diagnostics);
+    // The <extra> of a visual scene with its times; "" where the keys have them. After text().
+    std::string played_range() const;
 
   private:
     struct Target {
@@ -47,14 +50,17 @@ class AnimationWriter {
         bool rotation = false;       // of a quaternion
         std::optional<dvec3> hinge;  // that stands as a <rotate> about it
     };
-    const anim::Sampler* sampler_of(uint32_t quaternion) const;
+    std::vector<const anim::Sampler*> samplers_of(uint32_t quaternion) const;
+    template <class F>
+    void for_each_curve(const anim::Animation& animation, F&& add);
+    void hold_still(Diagnostics& diagnostics);
 
     const SceneDescription& description_;
     UniqueNames& names_;
     std::map<uint32_t, Target> targets_;  // by offset in values
+    std::vector<bool> animated_;          // per value: by the scene or a clip
+    std::set<uint32_t> unnamed_, sampled_;
+    CurveList curves_;
 };
-
-// Degrees about a unit axis, of a rotation about it.
-double angle_about(const dvec3& axis, const double* quaternion);
 
 }  // namespace kinora

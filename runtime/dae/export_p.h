@@ -47,6 +47,7 @@ class ColladaExporter {
     std::string child(const ChildUse& use);
     std::string mesh_instance(const MeshUse& use);
     std::string vertex_inputs(const MaterialUse& use, const PrimitiveGroup& group) const;
+    bool is_below_hidden(uint32_t node) const;  // or is hidden itself
     std::string library(const char* name, const std::string& content) const;
 
     // export_mesh.cpp: geometries and controllers

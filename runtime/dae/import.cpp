@@ -302,7 +302,8 @@ void ColladaImport::import_clips() {
         for (uint32_t channel : clip.channels) named[channel] = true;
     for (const collada::Clip& clip : data_.clips) {
         ClipDefinition& to = out_.clips.emplace_back();
-        to.name = clip.id.empty() ? clip.name : clip.id;
+        to.id = clip.id;
+        to.name = clip.name.empty() ? clip.id : clip.name;
         to.start = clip.start;
         to.end = clip.end;
         std::vector<bool> plays = named;

@@ -17,6 +17,8 @@ PlayRange play_range(const SceneDescription& description) {
 const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name) {
     for (const ClipDefinition& clip : description.clips)
         if (clip.name == name) return &clip;
+    for (const ClipDefinition& clip : description.clips)
+        if (clip.id == name) return &clip;
     return nullptr;
 }
 

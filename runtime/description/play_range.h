@@ -14,7 +14,7 @@ struct PlayRange {
 };
 PlayRange play_range(const SceneDescription& description);
 
-// The range of the clip with that name (null: no such clip).
+// The clip with that name, else with that id (null: no such clip).
 const ClipDefinition* find_clip(const SceneDescription& description, std::string_view name);
 // Makes the description play that clip: its range, and its own channels where it has them. Before
 // build_scene.

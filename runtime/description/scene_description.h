@@ -215,7 +215,7 @@ struct CameraDefinition {
 };
 
 struct ClipDefinition {
-    std::string name;
+    std::string id, name;  // --clip takes both; without a name in the file both are the id
     double start = 0, end = 0;
     // What moves in the clip where that is not simply a range of the scene's animation.
     std::shared_ptr<const anim::Animation> animation = nullptr;

@@ -8,6 +8,7 @@
 #include "runtime/base/regular_file.h"
 #include "runtime/dae/import.h"
 #include "runtime/gltf/import/import.h"
+#include "runtime/load/face_normals.h"
 
 namespace kinora {
 
@@ -20,8 +21,11 @@ bool is_gltf(const std::string& path) {
 
 std::optional<SceneDescription> import_scene(const std::string& path, const ImportOptions& options,
                                              Diagnostics& diagnostics) {
-    return is_gltf(path) ? import_gltf(path, options, diagnostics)
-                         : import_collada(path, options, diagnostics);
+    std::optional<SceneDescription> scene = is_gltf(path)
+                                                ? import_gltf(path, options, diagnostics)
+                                                : import_collada(path, options, diagnostics);
+    if (scene) give_faces_their_normals(*scene);
+    return scene;
 }
 
 }  // namespace kinora

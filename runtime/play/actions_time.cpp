@@ -181,6 +181,9 @@ CommandResult action_clip(PlayerCore& core, const Arguments& a) {
     std::string wanted;
     if (a.has(0)) {
         wanted = a.text(0);
+        if (std::ranges::find(names, wanted) == names.end())
+            for (const ClipInfo& clip : core.info->clips)
+                if (clip.id == wanted) wanted = clip.name;
         if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
             return refused(unknown_name("clip", wanted, names), 1);
     } else {

@@ -38,6 +38,7 @@ struct MaterialInfo {
 struct ClipInfo {
     std::string name;
     double first = 0, last = 0;  // frames
+    std::string id;
 };
 
 // Does not change; a new one comes with each scene.

@@ -248,7 +248,8 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
     info->camera = scene.camera;
     info->lights = light_names(scene);
     for (const ClipDefinition& clip : description.clips)
-        info->clips.push_back({clip.name, clip.start * rate.value(), clip.end * rate.value()});
+        info->clips.push_back(
+            {clip.name, clip.start * rate.value(), clip.end * rate.value(), clip.id});
     info->nodes = node_infos(scene);
     info->materials = material_infos(scene, read);
     std::vector<raytrace::AovPlane> planes;

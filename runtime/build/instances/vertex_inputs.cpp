@@ -1,32 +1,17 @@
 // runtime/build/instances/vertex_inputs.cpp: vertex inputs for the varying parameters of shaders.
 #include "runtime/build/instances/vertex_inputs.h"
 
+#include "runtime/description/picture_rules.h"
+
 namespace kinora {
 
 namespace {
-
-const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic,
-                                      uint32_t set) {
-    const VertexAttribute* best = nullptr;
-    for (const VertexAttribute& a : group.attributes) {
-        if (a.semantic != semantic) continue;
-        if (set == kNone ? !best || a.set < best->set : a.set == set) best = &a;
-    }
-    return best;
-}
-
-const VertexBinding* find_binding(const MaterialUse* use, std::string_view param) {
-    if (use)
-        for (const VertexBinding& binding : use->vertex_bindings)
-            if (binding.param == param) return &binding;
-    return nullptr;
-}
 
 // Finds the inputs of one layer after the other.
 class InputFinder {
   public:
     InputFinder(const PrimitiveGroup& group, const MaterialUse* use) : group_(group), use_(use) {
-        inputs_.st = find_attribute(group, "TEXCOORD", kNone);
+        inputs_.st = find_attribute(group, "TEXCOORD");
     }
 
     void add_layer(uint32_t index, const ShaderUse& layer) {
@@ -60,17 +45,10 @@ class InputFinder {
         return linear ? linear : a;
     }
 
-    const VertexAttribute* st_of(const std::string& texcoord) const {
-        const VertexBinding* binding = find_binding(use_, texcoord);
-        const VertexAttribute* found =
-            binding ? find_attribute(group_, binding->semantic, binding->set) : nullptr;
-        return found ? found : find_attribute(group_, "TEXCOORD", kNone);
-    }
-
     // A file's texcoord names bind sets; the first one is s and t.
     void add_texture(const ParamSource& source) {
         if (source.strings.empty() || !source.name.ends_with("_map")) return;
-        const VertexAttribute* st = st_of(source.texcoord);
+        const VertexAttribute* st = texture_coordinates(group_, use_, source.texcoord);
         if (!any_texture_) {
             any_texture_ = true;
             if (st) inputs_.st = st;
@@ -82,7 +60,7 @@ class InputFinder {
     }
 
     void add_color(const ShaderUse& layer) {
-        const VertexAttribute* color = read_by(layer, find_attribute(group_, "COLOR", kNone));
+        const VertexAttribute* color = read_by(layer, find_attribute(group_, "COLOR"));
         if (color && color->stride >= 3) add("Cs", "COLOR", color, 0, 3);
     }
 
@@ -94,7 +72,7 @@ class InputFinder {
         const VertexBinding* binding = find_binding(use_, name);
         const VertexAttribute* attribute =
             binding ? find_attribute(group_, binding->semantic, binding->set)
-                    : find_attribute(group_, name, kNone);
+                    : find_attribute(group_, name);
         attribute = read_by(layer, attribute);
         if (attribute)
             add(std::string(p.name), attribute->semantic, attribute, 0, components);

@@ -6,17 +6,11 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/description/pair_numbers.h"
+#include "runtime/description/picture_rules.h"
 
 namespace kinora {
 
 namespace {
-
-const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic) {
-    const VertexAttribute* best = nullptr;
-    for (const VertexAttribute& a : group.attributes)
-        if (a.semantic == semantic && (!best || a.set < best->set)) best = &a;
-    return best;
-}
 
 vec4 entry(const VertexAttribute& a, uint32_t index) {
     const float* v = &a.values[size_t(index) * a.stride];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "runtime/description/picture_rules.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
@@ -68,7 +69,7 @@ void NodeTree::unroll(uint32_t definition, uint32_t parent, const dmat4& convers
     node.parent = parent;
     node.conversion = conversion;
     node.can_move = definition_moves_[definition] || (above && above->can_move);
-    node.hidden = from.hidden || from.invisible || (above && above->hidden);
+    node.hidden = hides(from) || (above && above->hidden);
     node.chosen = from.chosen || (above ? above->chosen : !description.only_chosen);
     uint32_t index = uint32_t(scene_.nodes.size());
     scene_.nodes.push_back(node);

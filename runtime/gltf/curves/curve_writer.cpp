@@ -170,6 +170,7 @@ void CurveWriter::write_animations() {
         if (!has_channels(t)) continue;
         Json animation = {{"channels", outputs_[t].channels}, {"samplers", outputs_[t].samplers}};
         if (!takes_[t].name.empty()) animation["name"] = takes_[t].name;
+        if (takes_[t].is_whole) animation["extras"]["kinora_whole"] = true;
         document_.add("animations", std::move(animation));
     }
 }

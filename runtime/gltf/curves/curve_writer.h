@@ -11,6 +11,7 @@
 #include "runtime/gltf/curves/reduce_keys.h"
 #include "runtime/gltf/curves/takes.h"
 #include "runtime/gltf/document/buffer_writer.h"
+#include "runtime/gltf/document/loss_report.h"
 
 namespace kinora {
 

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "runtime/description/scene_description.h"
-#include "runtime/gltf/document/loss_report.h"
 
 namespace kinora {
 
 struct Take {
     std::string name;
     const anim::Animation* animation;  // the scene's, or a clip's own
+    bool is_whole = false;             // plays where no clip is chosen; others by their clip alone
 };
 
-// Clips stay apart where each plays all of an animation of its own and import_gltf, which plays
-// together those that do not meet, makes the scene's animation of them again (glTF's own do). Other
-// clips (COLLADA's, of parts of the scene's animation) are ranges of it.
-std::vector<Take> find_takes(const SceneDescription& description, LossReport& losses);
+// Each clip that plays channels of its own is a take. Readers play together the takes that do not
+// meet, the first of those that do. Where no order of the clips makes this the scene's animation, a
+// take of the whole stands first.
+std::vector<Take> find_takes(const SceneDescription& description);
 
 }  // namespace kinora

@@ -2,6 +2,7 @@
 #include "runtime/gltf/document/buffer_writer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace kinora {
@@ -34,9 +35,15 @@ uint32_t BufferWriter::view(const void* data, size_t size, int target) {
     return document_.add("bufferViews", std::move(element));
 }
 
+// Accessors hold finite numbers only (glTF 2.0, 3.6.2.2).
+void BufferWriter::mend(std::vector<float>& numbers) {
+    for (float& x : numbers)
+        if (!std::isfinite(x)) x = 0, ++unsound_;
+}
+
 template <class T>
-uint32_t BufferWriter::accessor(const std::vector<T>& numbers, uint32_t width, int target,
-                                bool bounds) {
+uint32_t BufferWriter::accessor(std::vector<T> numbers, uint32_t width, int target, bool bounds) {
+    if constexpr (std::is_same_v<T, float>) mend(numbers);
     uint32_t index = view(numbers.data(), numbers.size() * sizeof(T), target);
     Json result = {{"bufferView", index},
                    {"componentType", kComponentType<T>},
@@ -58,9 +65,9 @@ uint32_t BufferWriter::accessor(const std::vector<T>& numbers, uint32_t width, i
     }
     return document_.add("accessors", std::move(result));
 }
-template uint32_t BufferWriter::accessor(const std::vector<float>&, uint32_t, int, bool);
-template uint32_t BufferWriter::accessor(const std::vector<uint8_t>&, uint32_t, int, bool);
-template uint32_t BufferWriter::accessor(const std::vector<uint16_t>&, uint32_t, int, bool);
-template uint32_t BufferWriter::accessor(const std::vector<uint32_t>&, uint32_t, int, bool);
+template uint32_t BufferWriter::accessor(std::vector<float>, uint32_t, int, bool);
+template uint32_t BufferWriter::accessor(std::vector<uint8_t>, uint32_t, int, bool);
+template uint32_t BufferWriter::accessor(std::vector<uint16_t>, uint32_t, int, bool);
+template uint32_t BufferWriter::accessor(std::vector<uint32_t>, uint32_t, int, bool);
 
 }  // namespace kinora

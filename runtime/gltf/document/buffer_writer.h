@@ -17,15 +17,19 @@ class BufferWriter {
     uint32_t view(const void* data, size_t size, int target);
 
     // An accessor of elements of `width` numbers: float, uint8_t, uint16_t or uint32_t. `bounds`:
-    // with "min" and "max".
+    // with "min" and "max". 0 stands for floats that are not finite.
     template <class T>
-    uint32_t accessor(const std::vector<T>& numbers, uint32_t width, int target, bool bounds);
+    uint32_t accessor(std::vector<T> numbers, uint32_t width, int target, bool bounds);
+    size_t unsound() const { return unsound_; }  // for how many so far
 
     const std::string& bytes() const { return bytes_; }
 
   private:
+    void mend(std::vector<float>& numbers);
+
     GltfDocument& document_;
     std::string bytes_;
+    size_t unsound_ = 0;
 };
 
 }  // namespace kinora

@@ -44,6 +44,12 @@ void GltfDocument::use_extension(const char* name) {
         extensions_.push_back(name);
 }
 
+void GltfDocument::hide(uint32_t index) {
+    node(index)["extensions"]["KHR_node_visibility"]["visible"] = false;
+    use_extension("KHR_node_visibility");
+    ++hidden_;
+}
+
 Json& GltfDocument::list(const char* name) {
     return (*json_)[name];
 }

@@ -26,6 +26,8 @@ class GltfDocument {
     uint32_t add_node(Json node, uint32_t parent);
     uint32_t add_light(Json light);  // of KHR_lights_punctual
     void use_extension(const char* name);
+    void hide(uint32_t node);  // and what is below (KHR_node_visibility)
+    uint32_t hidden() const { return hidden_; }
 
     Json& list(const char* name);  // begun if need be
     Json& node(uint32_t index);
@@ -38,6 +40,7 @@ class GltfDocument {
   private:
     std::unique_ptr<Json> json_;
     std::vector<std::string> extensions_;
+    uint32_t hidden_ = 0;
 };
 
 }  // namespace kinora

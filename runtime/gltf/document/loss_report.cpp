@@ -14,6 +14,10 @@ void LossReport::in_extras(const std::string& what, const std::string& why, Loca
     diagnostics_.report(Code::CONVERT_EXTRAS, where, what, why);
 }
 
+void LossReport::hidden(uint32_t nodes) {
+    if (nodes) diagnostics_.report(Code::CONVERT_HIDDEN, Location{}, nodes);
+}
+
 void LossReport::sampled(uint32_t curves, double worst_error) {
     if (curves) diagnostics_.report(Code::CONVERT_SAMPLED, Location{}, curves, worst_error);
 }

@@ -16,6 +16,7 @@ class LossReport {
     void lost(const std::string& what, const std::string& why, Location where = {});
     // What only import_gltf reads back.
     void in_extras(const std::string& what, const std::string& why, Location where = {});
+    void hidden(uint32_t nodes);
     // So many curves became straight pieces, at most that far from them.
     void sampled(uint32_t curves, double worst_error);
 

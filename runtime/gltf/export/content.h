@@ -26,7 +26,7 @@ class ContentWriter {
     void write(uint32_t occurrence);
 
   private:
-    uint32_t free_node(uint32_t node, const char* key);
+    uint32_t free_node(uint32_t node, const char* pointer);
     void write_mesh(const MeshUse& use, uint32_t occurrence);
 
     const SceneDescription& description_;

@@ -47,7 +47,7 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
     LossReport losses(diagnostics);
     GltfDocument document;
     BufferWriter buffer(document);
-    std::vector<Take> takes = find_takes(description, losses);
+    std::vector<Take> takes = find_takes(description);
     CurveWriter curves(takes, options.animation_error, document, buffer);
     NodeMotion motion(description, takes, curves);
     NodeWriter nodes(description, motion, document, losses);
@@ -75,6 +75,10 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
     write_scene_extras(description, takes, curves, rsl, document, losses);
     report_lost_times(description.animation, losses);
     curves.report(losses);
+    losses.hidden(document.hidden());
+    if (buffer.unsound())
+        losses.lost("the scene", fmt::format("{} numbers that no float holds (0 stands for them)",
+                                             buffer.unsound()));
     return join_glb({document.text(buffer.bytes().size()), buffer.bytes()});
 }
 

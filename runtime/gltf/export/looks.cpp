@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "runtime/description/picture_rules.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/gltf/export/params.h"
 
@@ -104,16 +105,11 @@ std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGr
 
 uint32_t texcoord_index(const std::string& name, const MaterialUse& use,
                         const PrimitiveGroup& group) {
-    std::vector<uint32_t> sets;
+    const VertexAttribute* read = texture_coordinates(group, &use, name);
+    uint32_t index = 0;  // of those that attributes_of writes, in the order of their sets
     for (const VertexAttribute& a : group.attributes)
-        if (a.semantic == "TEXCOORD" && a.stride >= 2) sets.push_back(a.set);
-    std::sort(sets.begin(), sets.end());
-    for (const VertexBinding& b : use.vertex_bindings) {
-        if (b.param != name || b.semantic != "TEXCOORD" || b.set == kNone) continue;
-        auto found = std::find(sets.begin(), sets.end(), b.set);
-        if (found != sets.end()) return uint32_t(found - sets.begin());
-    }
-    return 0;
+        index += read && a.semantic == "TEXCOORD" && a.stride >= 2 && a.set < read->set;
+    return index;
 }
 
 }  // namespace kinora

@@ -45,8 +45,7 @@ class GltfLooks {
 std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGroup& group,
                                          LossReport& losses);
 
-// Which TEXCOORD_n a texcoord name means on this group: by the instance's vertex bindings, else the
-// lowest set.
+// Which TEXCOORD_n the texture_coordinates of a texcoord name are.
 uint32_t texcoord_index(const std::string& name, const MaterialUse& use,
                         const PrimitiveGroup& group);
 

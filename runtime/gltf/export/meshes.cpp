@@ -26,18 +26,10 @@ const VertexAttribute* normals_of(const PrimitiveGroup& group) {
     return nullptr;
 }
 
-vec3 unit_normal(vec3 n, vec3 otherwise = vec3(0, 0, 1)) {
-    float length = glm::length(n);
-    return length > 0 && std::isfinite(length) ? n / length : otherwise;
-}
-
-// Of the triangle that has this corner: what a normal that vanishes gives way to.
-vec3 face_normal(const MeshDefinition& mesh, const PrimitiveGroup& group, size_t corner) {
-    const uint32_t* t = &group.triangles[corner - corner % 3];
-    dvec3 a = mesh.positions[t[0]];
-    dvec3 n = glm::cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+// import_scene left none that are no directions.
+vec3 unit_normal(const dvec3& n) {
     double length = glm::length(n);
-    return length > 0 ? vec3(n / length) : vec3(0, 0, 1);
+    return length > 0 && std::isfinite(length) ? vec3(n / length) : vec3(0, 0, 1);
 }
 
 void push(std::vector<float>& numbers, vec3 v) {
@@ -49,7 +41,7 @@ void push(std::vector<float>& numbers, vec3 v) {
 void push(std::vector<float>& numbers, const GltfAttribute& a, uint32_t corner) {
     const float* v = &a.values->values[size_t(a.values->corners[corner]) * a.values->stride];
     if (a.name == "TANGENT") {
-        push(numbers, unit_normal(vec3(v[0], v[1], v[2])));
+        push(numbers, unit_normal(dvec3(v[0], v[1], v[2])));
         numbers.push_back(v[3] < 0 ? -1.0f : 1.0f);
         return;
     }
@@ -59,27 +51,33 @@ void push(std::vector<float>& numbers, const GltfAttribute& a, uint32_t corner) 
 
 }  // namespace
 
+const WrittenMesh& MeshWriter::written(uint32_t mesh) {
+    auto found = written_.find(mesh);
+    if (found == written_.end())
+        found = written_.emplace(mesh, written_mesh(description_.meshes[mesh], losses_)).first;
+    return found->second;
+}
+
 uint32_t MeshWriter::write(const MeshUse& use) {
-    const MeshDefinition& definition = description_.meshes[use.mesh];
+    const MeshDefinition& definition = *written(use.mesh).definition;
     std::string key = fmt::format("{} {} {}", use.mesh, use.morph, use.skin);
     for (const PrimitiveGroup& group : definition.groups)
         key += fmt::format(" {}", materials_.write(use, group));
     auto [found, fresh] = meshes_.try_emplace(key, kNone);
     if (!fresh) return found->second;
-    auto [built, is_new] = built_.try_emplace(use.mesh);
-    if (is_new) built->second = build_mesh(definition, true);
     Json primitives = Json::array();
     for (uint32_t g = 0; g < definition.groups.size(); ++g)
         if (!definition.groups[g].triangles.empty())
-            primitives.push_back(primitive(use, g, built->second));
+            primitives.push_back(primitive(use, g, written(use.mesh)));
     if (primitives.empty()) return kNone;
     Json result = {{"primitives", primitives}};
     if (!definition.id.empty()) result["name"] = definition.id;
     return found->second = document_.add("meshes", std::move(result));
 }
 
-Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const Mesh& built) {
-    const MeshDefinition& definition = description_.meshes[use.mesh];
+Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const WrittenMesh& mesh) {
+    const MeshDefinition& definition = *mesh.definition;
+    const Mesh& built = mesh.built;
     const PrimitiveGroup& group = definition.groups[group_index];
     std::vector<GltfAttribute> others = attributes_of(looks_.look_of(use, group), group, losses_);
     // A normal's number names its position too (build_mesh); each further attribute splits on.
@@ -103,10 +101,8 @@ Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const Mesh&
     std::vector<uint32_t> position_index;
     for (uint32_t c : corners) {
         position_index.push_back(group.triangles[c]);
-        push(positions, vec3(definition.positions[group.triangles[c]]));
-        if (!rest.flat())
-            push(normals, unit_normal(vec3(built.normals[rest.normal_corners[c]]),
-                                      face_normal(definition, group, c)));
+        push(positions, vec3(definition.positions[group.triangles[c]] - mesh.origin));
+        if (!rest.flat()) push(normals, unit_normal(dvec3(built.normals[rest.normal_corners[c]])));
     }
     Json attributes = {{"POSITION", buffer_.accessor(positions, 3, kVertexTarget, true)}};
     // Without them faces are flat in glTF, too (glTF 2.0, 3.7.2.1).
@@ -123,7 +119,7 @@ Json MeshWriter::primitive(const MeshUse& use, uint32_t group_index, const Mesh&
                                                1, kIndexTarget, false)
                             : buffer_.accessor(vertex, 1, kIndexTarget, false);
     if (uint32_t m = materials_.write(use, group); m != kNone) result["material"] = m;
-    if (use.morph != kNone) add_targets(use, built, group_index, corners, result);
+    if (use.morph != kNone) add_targets(use, mesh, group_index, corners, result);
     return result;
 }
 
@@ -152,9 +148,10 @@ void MeshWriter::add_influences(const MeshUse& use, const std::vector<uint32_t>&
 // Differences from the base, whatever the method: (1 - sum of w) base + sum of w target is base +
 // sum of w (target - base). Normals of a target: the file's where its corners are the base's, else
 // they stay.
-void MeshWriter::add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
+void MeshWriter::add_targets(const MeshUse& use, const WrittenMesh& mesh, uint32_t group_index,
                              const std::vector<uint32_t>& corners, Json& primitive) {
-    const MeshDefinition& base = description_.meshes[use.mesh];
+    const MeshDefinition& base = *mesh.definition;
+    const Mesh& built = mesh.built;
     const PrimitiveGroup& group = base.groups[group_index];
     const MeshGroup& rest = built.groups[group_index];
     std::vector<std::pair<uint32_t, bool>> targets;  // of all morphs, and whether RELATIVE
@@ -175,8 +172,7 @@ void MeshWriter::add_targets(const MeshUse& use, const Mesh& built, uint32_t gro
         bool fits = given && given->corners.size() == group.triangles.size();
         for (uint32_t c : corners) {
             if (rest.flat()) break;
-            vec3 from = unit_normal(vec3(built.normals[rest.normal_corners[c]]),
-                                    face_normal(base, group, c));
+            vec3 from = unit_normal(dvec3(built.normals[rest.normal_corners[c]]));
             vec3 to = from;
             if (fits) {
                 const float* v = &given->values[size_t(given->corners[c]) * given->stride];

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/build/shapes/mesh.h"
 #include "runtime/gltf/export/materials.h"
+#include "runtime/gltf/export/written_mesh.h"
 
 namespace kinora {
 
@@ -24,12 +24,15 @@ class MeshWriter {
 
     // The mesh of a use with its materials; kNone where it has no triangles.
     uint32_t write(const MeshUse& use);
+    // The point of a mesh about which its positions are written.
+    dvec3 origin(uint32_t mesh) { return written(mesh).origin; }
 
   private:
-    Json primitive(const MeshUse& use, uint32_t group_index, const Mesh& built);
+    const WrittenMesh& written(uint32_t mesh);
+    Json primitive(const MeshUse& use, uint32_t group_index, const WrittenMesh& mesh);
     void add_influences(const MeshUse& use, const std::vector<uint32_t>& positions,
                         Json& attributes);
-    void add_targets(const MeshUse& use, const Mesh& built, uint32_t group_index,
+    void add_targets(const MeshUse& use, const WrittenMesh& mesh, uint32_t group_index,
                      const std::vector<uint32_t>& corners, Json& primitive);
 
     const SceneDescription& description_;
@@ -38,8 +41,8 @@ class MeshWriter {
     GltfDocument& document_;
     BufferWriter& buffer_;
     LossReport& losses_;
-    std::map<std::string, uint32_t> meshes_;  // of mesh, morph, skin and materials
-    std::map<uint32_t, Mesh> built_;          // of definitions
+    std::map<std::string, uint32_t> meshes_;   // of mesh, morph, skin and materials
+    std::map<uint32_t, WrittenMesh> written_;  // of definitions
 };
 
 }  // namespace kinora

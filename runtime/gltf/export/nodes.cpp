@@ -28,6 +28,10 @@ Json trs_node(const Trs& trs) {
 
 uint32_t NodeWriter::write_still(const dmat4& matrix, uint32_t parent) {
     Trs trs, inner;
+    if (!is_finite(matrix)) {
+        losses_.lost("a node", "a matrix that is not finite");
+        return document_.add_node(Json::object(), parent);
+    }
     if (decompose_trs(matrix, trs)) return document_.add_node(trs_node(trs), parent);
     trs = Trs();
     split_shear(matrix, trs, inner);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "runtime/description/picture_rules.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {
@@ -52,7 +53,9 @@ void Occurrences::unroll(uint32_t index, uint32_t parent, const dmat4& conversio
     dmat4 start = conversion * node_matrix(definition, start_values_);
     if (parent != kNone) world = all_[parent].world * world;
     if (parent != kNone) start = all_[parent].start * start;
-    all_.push_back({index, parent, node, world, start, conversion});
+    bool hidden = hides(definition) || (parent != kNone && all_[parent].hidden);
+    if (hides(definition)) document_.hide(node);
+    all_.push_back({index, parent, node, world, start, conversion, hidden});
     for (const ChildUse& child : definition.children) unroll(child.node, own, child.conversion);
 }
 

@@ -16,6 +16,7 @@ struct Occurrence {
     dmat4 world;       // at rest, in the scene's own axes and unit
     dmat4 start;       // likewise, at the first keys
     dmat4 conversion;  // of its use, outside its own stack
+    bool hidden;       // by its node or one above
 };
 
 class Occurrences {

@@ -9,16 +9,25 @@ namespace kinora {
 
 namespace {
 
-// Clips that are no animation of their own: ranges of the scene's.
+// Clips that are ranges of the scene's animation, and ranges of clips that are animations where
+// these are not those of their keys.
 Json clip_ranges(const SceneDescription& description, std::span<const Take> takes,
                  const CurveWriter& curves) {
     Json ranges = Json::array();
     for (const ClipDefinition& clip : description.clips) {
-        bool is_take = false;
-        for (uint32_t t = 0; t < takes.size(); ++t)
-            is_take |= takes[t].animation == clip.animation.get() && curves.has_channels(t);
-        if (!is_take)
-            ranges.push_back({{"name", clip.name}, {"start", clip.start}, {"end", clip.end}});
+        Json range = {{"name", clip.name}, {"start", clip.start}, {"end", clip.end}};
+        bool is_keys = false;
+        uint32_t animation = 0;
+        for (uint32_t t = 0; t < takes.size(); ++t) {
+            if (!curves.has_channels(t)) continue;
+            if (clip.animation && takes[t].animation == clip.animation.get()) {
+                anim::TimeRange keys = anim::time_range(*clip.animation);
+                is_keys = keys.begin == clip.start && keys.end == clip.end;
+                range["animation"] = animation;
+            }
+            ++animation;
+        }
+        if (!is_keys) ranges.push_back(range);
     }
     return ranges;
 }
@@ -34,7 +43,8 @@ void write_scene_extras(const SceneDescription& description, std::span<const Tak
     if (description.start_time) extras["kinora_start_time"] = *description.start_time;
     if (description.end_time) extras["kinora_end_time"] = *description.end_time;
     if (description.frame_rate) extras["kinora_frame_rate"] = *description.frame_rate;
-    if (!ranges.empty()) losses.in_extras("the scene", fmt::format("{} clips", ranges.size()));
+    if (!ranges.empty())
+        losses.in_extras("the scene", fmt::format("the ranges of {} clips", ranges.size()));
     Json shaders = rsl.picture(description.picture);
     if (!shaders.empty()) {
         extras["kinora_rsl"] = shaders;

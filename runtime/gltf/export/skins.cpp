@@ -84,7 +84,7 @@ uint32_t SkinWriter::copy(uint32_t occurrence, uint32_t above, uint32_t top, Cop
 }
 
 // COLLADA 1.4.1, skinning: a skin is in world space, joint * inverse bind * bind shape.
-uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
+uint32_t SkinWriter::write(const MeshUse& use, const dmat4& about, uint32_t occurrence) {
     const SkinDefinition& definition = description_.skins[use.skin];
     std::vector<uint32_t> joints = joints_of(use, occurrence);
     std::span<const uint32_t> bound =
@@ -113,7 +113,7 @@ uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
         if (still == kNone)
             still =
                 document_.add_node(Json::object({{"name", definition.id + " bind shape"}}), above);
-        list.add(still, still_shape);
+        list.add(still, still_shape * about);
     };
     for (size_t j = 0; j < definition.inverse_bind.size(); ++j) {
         uint32_t joint = j < joints.size() ? joints[j] : kNone;
@@ -121,7 +121,7 @@ uint32_t SkinWriter::write(const MeshUse& use, uint32_t occurrence) {
             add_still();
         else
             list.add(copies.empty() ? occurrences_[joint].node : copies.at(joint),
-                     inverse_bind(definition, j, joint, from_skin) * bind_shape);
+                     inverse_bind(definition, j, joint, from_skin) * bind_shape * about);
     }
     bool follows_none = std::any_of(definition.joints.begin(), definition.joints.end(),
                                     [](int32_t j) { return j < 0; });

@@ -24,8 +24,9 @@ class SkinWriter {
           document_(document),
           buffer_(buffer) {}
 
-    // The skin of a mesh that hangs on an occurrence.
-    uint32_t write(const MeshUse& use, uint32_t occurrence);
+    // The skin of a mesh that hangs on an occurrence; `about` takes its written positions to the
+    // file's.
+    uint32_t write(const MeshUse& use, const dmat4& about, uint32_t occurrence);
 
   private:
     using Copies = std::map<uint32_t, uint32_t>;  // occurrence -> its node once more

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kExtensions[] = {
     "KHR_lights_punctual",    "KHR_materials_unlit", "KHR_texture_transform",
     "KHR_mesh_quantization",  "KHR_materials_ior",   "KHR_materials_emissive_strength",
-    "KHR_materials_specular",
+    "KHR_materials_specular", "KHR_node_visibility",
 };
 
 bool is_understood(const std::string& extension) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "runtime/description/findings.h"
+#include "runtime/gltf/file/value.h"
 
 namespace kinora {
 
@@ -134,38 +135,55 @@ anim::Animation AnimationImporter::animation_of(uint32_t index) {
     return anim::make_animation(std::move(samplers), std::move(channels));
 }
 
+// Animations play together, those that meet an earlier one by their clip alone.
 void AnimationImporter::import_animations(UniqueIds& ids) {
+    clip_of_.assign(model_.animations.size(), kNone);
     std::vector<anim::Sampler> samplers;
     std::vector<anim::Channel> channels;
     std::set<uint32_t> driven;
+    bool has_whole = false;
     for (uint32_t a = 0; a < model_.animations.size(); ++a) {
         auto own = std::make_shared<anim::Animation>(animation_of(a));
         if (own->channels.empty()) continue;
-        ClipDefinition clip;
-        clip.name = ids.id(model_.animations[a].name, "animation", a);
-        anim::TimeRange range = anim::time_range(*own);
-        clip.start = range.begin;
-        clip.end = range.end;
-        clip.animation = own;
+        bool is_whole = member(model_.animations[a].extras, "kinora_whole") != nullptr;
+        if (is_whole && driven.empty()) {
+            has_whole = true;  // as kinora-convert writes it: what plays where no clip is chosen
+            samplers = own->samplers;
+            channels = own->channels;
+            continue;
+        }
+        add_clip(a, own, ids);
+        if (has_whole) continue;
         bool meets = std::any_of(own->channels.begin(), own->channels.end(),
                                  [&](const anim::Channel& c) { return driven.contains(c.slot); });
         if (meets) {
-            report_.add(Code::GLTF_ANIMATIONS_MEET, fmt::format("/animations/{}", a), clip.name,
-                        clip.name);
-        } else {
-            for (anim::Channel channel : own->channels) {
-                driven.insert(channel.slot);
-                channel.sampler += uint32_t(samplers.size());
-                channels.push_back(channel);
-            }
-            samplers.insert(samplers.end(), own->samplers.begin(), own->samplers.end());
+            const std::string& name = out_.clips.back().name;
+            report_.add(Code::GLTF_ANIMATIONS_MEET, fmt::format("/animations/{}", a), name, name);
+            continue;
         }
-        out_.clips.push_back(std::move(clip));
+        for (anim::Channel channel : own->channels) {
+            driven.insert(channel.slot);
+            channel.sampler += uint32_t(samplers.size());
+            channels.push_back(channel);
+        }
+        samplers.insert(samplers.end(), own->samplers.begin(), own->samplers.end());
     }
     out_.animation = anim::make_animation(std::move(samplers), std::move(channels));
     out_.animated.assign(out_.values.size(), false);
     for (const anim::Animation::Write& write : out_.animation.writes)
         out_.animated[write.slot] = true;
+}
+
+void AnimationImporter::add_clip(uint32_t animation, std::shared_ptr<const anim::Animation> own,
+                                 UniqueIds& ids) {
+    ClipDefinition clip;
+    clip.id = clip.name = ids.id(model_.animations[animation].name, "animation", animation);
+    anim::TimeRange range = anim::time_range(*own);
+    clip.start = range.begin;
+    clip.end = range.end;
+    clip.animation = std::move(own);
+    clip_of_[animation] = uint32_t(out_.clips.size());
+    out_.clips.push_back(std::move(clip));
 }
 
 }  // namespace kinora

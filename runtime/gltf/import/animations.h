@@ -29,6 +29,9 @@ class AnimationImporter {
     // All at once; an animation that drives what an earlier one drives is left to --clip.
     void import_animations(UniqueIds& ids);
 
+    // The clip of each animation; kNone where it is none.
+    std::span<const uint32_t> clips() const { return clip_of_; }
+
   private:
     struct Written {  // what a channel writes
         uint32_t slot = kNone, count = 0, owner = 0;
@@ -36,6 +39,7 @@ class AnimationImporter {
     Written written_by(const tinygltf::AnimationChannel& channel) const;
     std::optional<anim::Sampler> sampler_of(uint32_t animation, uint32_t channel, uint32_t stride);
     anim::Animation animation_of(uint32_t index);
+    void add_clip(uint32_t animation, std::shared_ptr<const anim::Animation> own, UniqueIds& ids);
 
     const tinygltf::Model& model_;
     const GltfNodeTree& tree_;
@@ -44,6 +48,7 @@ class AnimationImporter {
     GltfReport& report_;
     ByteBudget& budget_;
     SceneDescription& out_;
+    std::vector<uint32_t> clip_of_;  // by animation
 };
 
 }  // namespace kinora

@@ -11,7 +11,8 @@
 
 namespace kinora {
 
-void import_scene_extras(const tinygltf::Model& model, RslExtras& rsl, SceneDescription& out) {
+void import_scene_extras(const tinygltf::Model& model, std::span<const uint32_t> clip_of_animation,
+                         RslExtras& rsl, SceneDescription& out) {
     if (model.scenes.empty()) return;
     const size_t index = shown_scene(model);
     const tinygltf::Value& extras = model.scenes[index].extras;
@@ -28,8 +29,18 @@ void import_scene_extras(const tinygltf::Model& model, RslExtras& rsl, SceneDesc
         const tinygltf::Value* name = member(clip, "name");
         std::optional<double> start = number_member(clip, "start"),
                               end = number_member(clip, "end");
-        if (name && name->IsString() && start && end)
-            out.clips.push_back({name->Get<std::string>(), *start, *end});
+        std::optional<double> animation = number_member(clip, "animation");
+        if (!name || !name->IsString() || !start || !end) continue;
+        uint32_t own = animation && *animation >= 0 && *animation < double(clip_of_animation.size())
+                           ? clip_of_animation[size_t(*animation)]
+                           : kNone;
+        if (own != kNone) {
+            out.clips[own].start = *start;
+            out.clips[own].end = *end;
+        } else {
+            const std::string& text = name->Get<std::string>();
+            out.clips.push_back({text, text, *start, *end});
+        }
     }
 }
 

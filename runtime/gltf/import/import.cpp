@@ -69,7 +69,7 @@ bool import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
     nodes.import_nodes(ids);
     AnimationImporter animations(model, tree, nodes.slots(), accessors, report, budget, out);
     animations.import_animations(ids);
-    import_scene_extras(model, rsl, out);
+    import_scene_extras(model, animations.clips(), rsl, out);
     report.finish();
     return true;
 }

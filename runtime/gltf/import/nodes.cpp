@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "runtime/description/findings.h"
+#include "runtime/description/picture_rules.h"
+#include "runtime/gltf/file/value.h"
 #include "runtime/gltf/import/extras.h"
 #include "runtime/gltf/import/values.h"
 
@@ -99,6 +101,7 @@ void NodeImporter::import_nodes(UniqueIds& ids) {
         to.where = places[n];
         import_transforms(n);
         import_attributes(from.extras, to);
+        import_visibility(n);
         for (uint32_t child : tree_.children[n]) to.children.push_back({child, dmat4(1.0)});
         import_content(n);
     }
@@ -115,6 +118,21 @@ void NodeImporter::import_nodes(UniqueIds& ids) {
             out_.roots.push_back({uint32_t(root), dmat4(1.0)});
         }
     }
+    // A file in which all is hidden is looked at nevertheless, as in COLLADA.
+    if (!shows_a_mesh(out_))
+        for (NodeDefinition& node : out_.nodes) node.invisible = false;
+}
+
+// KHR_node_visibility: a node that is not visible is hidden with all below it.
+void NodeImporter::import_visibility(uint32_t node) {
+    const auto& extensions = model_.nodes[node].extensions;
+    auto found = extensions.find("KHR_node_visibility");
+    if (found == extensions.end()) return;
+    const tinygltf::Value* visible = member(found->second, "visible");
+    if (!visible || !visible->IsBool() || visible->Get<bool>()) return;
+    out_.nodes[node].invisible = true;
+    report_.add(Code::GLTF_HIDDEN, fmt::format("/nodes/{}/extensions/KHR_node_visibility", node),
+                node);
 }
 
 // Its camera, light and mesh.

@@ -29,6 +29,7 @@ class NodeImporter {
     void import_transforms(uint32_t node);
     bool usable(const std::vector<double>& numbers, size_t count, uint32_t node, const char* name);
     bool usable_matrix(uint32_t node);
+    void import_visibility(uint32_t node);
     void import_content(uint32_t node);
     MeshUse mesh_use(uint32_t node);
 

@@ -5,16 +5,11 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "runtime/description/picture_rules.h"
+
 namespace kinora {
 
 namespace {
-
-const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic) {
-    const VertexAttribute* lowest = nullptr;
-    for (const VertexAttribute& a : group.attributes)
-        if (a.semantic == semantic && (!lowest || a.set < lowest->set)) lowest = &a;
-    return lowest;
-}
 
 dvec3 entry(const VertexAttribute& attribute, size_t corner) {
     const float* v = &attribute.values[size_t(attribute.corners[corner]) * attribute.stride];

@@ -56,7 +56,8 @@ Json clips(const Scene& scene) {
     Json list = Json::array(
         {{{"range", true}, {"start", range.start}, {"end", range.end}, {"rate", range.rate}}});
     for (const ClipDefinition& clip : scene.description->clips)
-        list.push_back({{"name", clip.name}, {"start", clip.start}, {"end", clip.end}});
+        list.push_back(
+            {{"name", clip.name}, {"id", clip.id}, {"start", clip.start}, {"end", clip.end}});
     return list;
 }
 

@@ -116,7 +116,7 @@ void add_animation(const collada::SceneData& scene, SceneInfo& info) {
     }
     for (const collada::Clip& clip : scene.clips)
         info.clips.push_back(
-            {first_name(clip.id, clip.name), clip.start, clip.end, clip.channels.size()});
+            {first_name(clip.name, clip.id), clip.start, clip.end, clip.channels.size()});
 }
 
 }  // namespace
