@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "collada/extract/primitives_p.h"
 #include "collada/text/numbers_p.h"
@@ -11,12 +12,14 @@ namespace kinora::collada {
 namespace {
 
 constexpr uint32_t kMaxOffset = 1 << 16;
+constexpr size_t kMostTexcoords = 8;  // that inputs of other names stand for
 
 struct Inputs {
     bool has_vertex = false;
     uint32_t stride = 1;
     std::vector<uint32_t> offsets;    // each once; [0] is VERTEX's
     std::vector<VertexInput> inputs;  // a list is first the number of an offset
+    std::map<std::pair<std::string, uint32_t>, uint32_t> first;  // of a semantic and set: in inputs
 };
 
 // The list of an offset; several inputs share one.
@@ -36,6 +39,20 @@ uint32_t input_offset(Extraction& x, Link input) {
     return kNone;
 }
 
+// Of two inputs with one semantic and set the first is used, those of <vertices> before others.
+// The second is left out here, so that all readers of the group show the same one.
+void add_first_of_set(MeshReader& mesh, Location where, std::string_view set, VertexInput input,
+                      Inputs& inputs) {
+    auto [at, fresh] =
+        inputs.first.try_emplace({input.semantic, input.set}, uint32_t(inputs.inputs.size()));
+    const VertexInput* known = fresh ? nullptr : &inputs.inputs[at->second];
+    if (!known)
+        inputs.inputs.push_back(std::move(input));
+    else if (known->source != input.source || known->list != input.list)
+        mesh.x.diag.report(Code::PRIM_SET_TWICE, where, input.semantic,
+                           set.empty() ? "no set" : fmt::format("set {}", set));
+}
+
 void add_vertices_inputs(MeshReader& mesh, Inputs& inputs) {
     for (const VertexInput& input : mesh.vertices_inputs) {
         uint32_t entries = mesh.entries[input.source];
@@ -45,7 +62,7 @@ void add_vertices_inputs(MeshReader& mesh, Inputs& inputs) {
                                            mesh.geometry.positions.size()));
             continue;
         }
-        inputs.inputs.push_back(input);
+        add_first_of_set(mesh, mesh.geometry.where, "", input, inputs);
     }
 }
 
@@ -60,8 +77,33 @@ void add_input(MeshReader& mesh, Link link, uint32_t offset, Inputs& inputs) {
     }
     uint64_t set = 0;
     if (!parse_count(link.element->value("set"), set) || set >= kNone) set = 0;
-    inputs.inputs.push_back(
-        {std::string(semantic), uint32_t(set), index, use_offset(inputs, offset)});
+    add_first_of_set(mesh, mesh.x.where(link), link.element->value("set"),
+                     {std::string(semantic), uint32_t(set), index, use_offset(inputs, offset)},
+                     inputs);
+}
+
+// "UV", and TEXCOORD with its set's number behind it.
+bool names_texcoords(std::string_view semantic) {
+    constexpr std::string_view kTexcoord = "TEXCOORD";
+    if (semantic == "UV") return true;
+    if (!semantic.starts_with(kTexcoord)) return false;
+    uint64_t set = 0;
+    return parse_count(semantic.substr(kTexcoord.size()), set);
+}
+
+// Without a TEXCOORD, inputs that are meant as such stand for the sets 0, 1 ... besides.
+void add_texcoords(MeshReader& mesh, Location where, Inputs& inputs) {
+    std::vector<VertexInput> meant;
+    for (const VertexInput& input : inputs.inputs) {
+        if (input.semantic == "TEXCOORD") return;
+        if (meant.size() < kMostTexcoords && names_texcoords(input.semantic)) meant.push_back(input);
+    }
+    for (uint32_t set = 0; set < meant.size(); ++set) {
+        mesh.x.diag.report(Code::PRIM_TEXCOORD_NAME, where, meant[set].semantic, set);
+        meant[set].semantic = "TEXCOORD";
+        meant[set].set = set;
+        inputs.inputs.push_back(std::move(meant[set]));
+    }
 }
 
 Inputs read_inputs(MeshReader& mesh, Link primitive) {
@@ -83,6 +125,7 @@ Inputs read_inputs(MeshReader& mesh, Link primitive) {
     if (!inputs.has_vertex) return inputs;
     add_vertices_inputs(mesh, inputs);
     for (auto& [link, offset] : others) add_input(mesh, link, offset, inputs);
+    add_texcoords(mesh, mesh.x.where(primitive), inputs);
     return inputs;
 }
 

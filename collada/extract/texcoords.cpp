@@ -41,6 +41,36 @@ std::vector<std::string_view> texcoords_of(const Effect& effect) {
     return names;
 }
 
+// Binds the name to a set that the group has: the one that is written, else the lowest of TEXCOORD.
+void bind_texcoord(Extraction& x, GeometrySymbols& symbols, uint32_t number,
+                   const PrimitiveGroup& group, std::string_view name, const std::string& material,
+                   MaterialBinding& binding) {
+    auto bound = std::find_if(binding.vertex_inputs.begin(), binding.vertex_inputs.end(),
+                              [&](const VertexInputBinding& b) { return b.semantic == name; });
+    bool is_bound = bound != binding.vertex_inputs.end();
+    std::string semantic = is_bound ? bound->input_semantic : "TEXCOORD";
+    uint32_t wanted = is_bound ? bound->input_set : number_in(name);
+    const std::vector<uint32_t>* sets = &sets_of(symbols, number, group, semantic);
+    bool has = std::binary_search(sets->begin(), sets->end(), wanted);
+    if (sets->empty() || (is_bound && wanted != kNone && !has)) {
+        std::string missing =
+            sets->empty() ? semantic : fmt::format("{} of set {}", semantic, wanted);
+        if (sets->empty()) sets = &sets_of(symbols, number, group, semantic = "TEXCOORD");
+        x.diag.report(Code::TEX_SET_MISSING, is_bound ? bound->where : binding.where, missing,
+                      material,
+                      sets->empty() ? std::string("none is used")
+                                    : fmt::format("set {} is used", sets->front()));
+    } else if (!is_bound) {
+        x.diag.report(Code::TEX_NO_BVI, binding.where, material, name);
+    }
+    if (sets->empty()) return;
+    uint32_t set = has ? wanted : sets->front();
+    if (is_bound)
+        bound->input_semantic = semantic, bound->input_set = set;
+    else
+        binding.vertex_inputs.push_back({std::string(name), semantic, set, binding.where});
+}
+
 }  // namespace
 
 void bind_texcoords(Extraction& x, uint32_t geometry, MaterialBinding& binding) {
@@ -53,25 +83,8 @@ void bind_texcoords(Extraction& x, uint32_t geometry, MaterialBinding& binding) 
     auto first = symbols.first_group.find(binding.symbol);
     if (first == symbols.first_group.end()) return;
     const PrimitiveGroup& group = x.scene.geometries[geometry].groups[first->second];
-    for (std::string_view name : texcoords_of(effect)) {
-        auto bound = std::find_if(binding.vertex_inputs.begin(), binding.vertex_inputs.end(),
-                                  [&](const VertexInputBinding& b) { return b.semantic == name; });
-        bool is_bound = bound != binding.vertex_inputs.end();
-        std::string semantic = is_bound ? bound->input_semantic : "TEXCOORD";
-        const std::vector<uint32_t>& sets = sets_of(symbols, first->second, group, semantic);
-        uint32_t wanted = is_bound ? bound->input_set : number_in(name);
-        bool has = std::binary_search(sets.begin(), sets.end(), wanted);
-        if (sets.empty() || (is_bound && wanted != kNone && !has)) {
-            std::string text = semantic;
-            if (!sets.empty()) text += fmt::format(" of set {}", wanted);
-            x.diag.report(Code::TEX_SET_MISSING, is_bound ? bound->where : binding.where, text,
-                          material.id);
-        } else if (!is_bound) {
-            x.diag.report(Code::TEX_NO_BVI, binding.where, material.id, name);
-            binding.vertex_inputs.push_back(
-                {std::string(name), semantic, has ? wanted : sets.front(), binding.where});
-        }
-    }
+    for (std::string_view name : texcoords_of(effect))
+        bind_texcoord(x, symbols, first->second, group, name, material.id, binding);
 }
 
 }  // namespace kinora::collada

@@ -32,11 +32,21 @@ ValueSlot ColladaImport::param_slot(uint32_t material, uint32_t effect, uint32_t
             uint32_t(data_.effects[effect].params[param].value.numbers.size())};
 }
 
+// The file of an image. One that names none is an empty file inside the scene's, so that it shows
+// checks as a missing one does.
+std::string ColladaImport::image_path(const collada::Image& image) {
+    if (!image.path.empty()) return image.path;
+    if (!image.uri.empty()) return image.uri;
+    auto none = std::make_shared<MemoryFile>(out_.path + "#" + image.id, std::vector<uint8_t>());
+    out_.memory_files.push_back(none);
+    return none->name();
+}
+
 // The image that a string names, and how it is looked up: "normals?data,clamp_s".
 std::string ColladaImport::image_name(const collada::Image& image, std::string_view text,
                                       Location where) {
     TextureName name;
-    name.path = image.path.empty() ? image.uri : image.path;
+    name.path = image_path(image);
     size_t mark = text.find('?');
     if (text != image.id && mark != std::string_view::npos &&
         !set_texture_words(text.substr(mark + 1), name))
@@ -135,12 +145,12 @@ const collada::TextureSampler& ColladaImport::sampler_of(uint32_t material, uint
 }
 
 void ColladaImport::set_texture(uint32_t material, const collada::CommonValue& value,
-                                const char* name, bool data, ShaderUse& use) const {
+                                const char* name, bool data, ShaderUse& use) {
     const collada::TextureSampler& sampler = sampler_of(material, value.sampler);
     if (sampler.image == collada::kNone) return;
     const collada::Image& image = data_.images[sampler.image];
     TextureName texture;
-    texture.path = image.path.empty() ? image.uri : image.path;
+    texture.path = image_path(image);
     auto wrap = [](collada::Wrap w) {
         return w == collada::Wrap::None ? TextureWrap::Border : TextureWrap(w);
     };

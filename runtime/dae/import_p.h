@@ -53,6 +53,7 @@ class ColladaImport {
     MaterialDefinition material(uint32_t index);
     void rsl_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
     void common_material(uint32_t index, const collada::Effect& effect, MaterialDefinition& result);
+    std::string image_path(const collada::Image& image);
     std::string image_name(const collada::Image& image, std::string_view text, Location where);
     std::optional<ShaderUse> shader_use(uint32_t material, const collada::Effect& effect,
                                         const collada::RslShader& shader);
@@ -61,7 +62,7 @@ class ColladaImport {
     ValueSlot bound_slot(uint32_t material, const collada::ParamBinding& param);
     ValueSlot param_slot(uint32_t material, uint32_t effect, uint32_t param) const;
     void set_texture(uint32_t material, const collada::CommonValue& value, const char* name,
-                     bool data, ShaderUse& use) const;
+                     bool data, ShaderUse& use);
     // Sampler `number` of its effect, or the one its <setparam>s replaced it with.
     const collada::TextureSampler& sampler_of(uint32_t material, uint32_t number) const;
 
