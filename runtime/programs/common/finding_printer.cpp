@@ -1,4 +1,4 @@
-// runtime/programs/common/finding_printer.cpp: which findings are printed, and what is said of the
+// runtime/programs/common/finding_printer.cpp: which findings count, and what is said of the
 // others.
 #include "runtime/programs/common/finding_printer.h"
 
@@ -10,12 +10,6 @@
 #include "runtime/programs/common/missing_asset.h"
 
 namespace kinora {
-
-namespace {
-
-constexpr size_t kMostOfACode = 20;
-
-}  // namespace
 
 bool FindingPrinter::admit(const Finding& finding) {
     Severity least = options_.quiet     ? Severity::Error
@@ -31,10 +25,7 @@ bool FindingPrinter::admit(const Finding& finding) {
         for_validator_ += finding.info->severity >= Severity::Warning;
         return false;
     }
-    size_t& printed = printed_of_[finding.info->code];
-    if (options_.verbose || printed < kMostOfACode) return ++printed > 0;
-    ++hidden_of_[finding.info->code];
-    return false;
+    return true;
 }
 
 void FindingPrinter::print(const Diagnostics& diagnostics) {
@@ -46,21 +37,20 @@ void FindingPrinter::print(const Diagnostics& diagnostics) {
         if (missing && options_.strict) finding.severity = Severity::Error;
         ++counts_[size_t(finding.severity)];
         if (!options_.silent && admit(finding))
-            std::fputs(format_finding(finding, diagnostics.files).c_str(), stderr);
+            lines_.add(finding.severity, finding.info->code,
+                       format_finding(finding, diagnostics.files));
     }
+    std::fputs(lines_.take().c_str(), stderr);
 }
 
 void FindingPrinter::summarize() {
     if (!options_.quiet && !options_.silent) {
-        for (const auto& [code, count] : hidden_of_)
-            std::fprintf(stderr, "kinora: %zu more of %s; -v shows all\n", count,
-                         std::string(code).c_str());
+        std::fputs(lines_.take_rest().c_str(), stderr);
         if (for_validator_ > 0 && has_extension(scene_, {".dae", ".zae", ".kmz"}))
             std::fprintf(stderr, "%zu more: kinora-validate %s\n", for_validator_, scene_.c_str());
         else if (for_validator_ > 0)
             std::fprintf(stderr, "%zu more: -v shows them\n", for_validator_);
     }
-    hidden_of_.clear();
     for_validator_ = 0;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/programs/common/finding_lines.h"
 
 namespace kinora {
 
@@ -30,9 +30,9 @@ class FindingPrinter {
     // whatever their severity, unless quiet.
     FindingPrinter(const FindingOptions& options, std::string scene,
                    const FindingInfo* always = nullptr)
-        : options_(options), scene_(std::move(scene)), always_(always) {}
+        : options_(options), scene_(std::move(scene)), always_(always), lines_(options.verbose) {}
 
-    // Prints to stderr what is new: each finding once, and 20 of a code.
+    // Prints to stderr what is new: each finding once, as FindingLines has room for it.
     void print(const Diagnostics& diagnostics);
     // Says how many were not printed since it last did.
     void summarize();
@@ -55,11 +55,11 @@ class FindingPrinter {
     FindingOptions options_;
     std::string scene_;
     const FindingInfo* always_;
+    FindingLines lines_;
     size_t seen_ = 0;  // findings looked at so far
     std::set<Key> printed_;
-    std::map<std::string_view, size_t> printed_of_, hidden_of_;  // by code
-    size_t for_validator_ = 0;                                   // schema, names, style
-    std::array<size_t, 5> counts_{};                             // by severity
+    size_t for_validator_ = 0;        // schema, names, style
+    std::array<size_t, 5> counts_{};  // by severity
     bool missing_ = false;
 };
 

@@ -17,7 +17,6 @@ namespace kinora {
 namespace {
 
 constexpr double kPatience = 24 * 3600;
-constexpr size_t kMostOfACode = 20;  // as kinora-render prints
 
 void say(const std::string& line) {
     std::fprintf(stderr, "%s\n", line.c_str());
@@ -64,7 +63,7 @@ int take_screenshots(const PlayOptions& options, Player& player) {
 
 }  // namespace
 
-void FindingLines::print(const Player& player) {
+void PlayerFindings::print(const Player& player) {
     for (const FindingText& finding : player.findings()) {
         if (!seen_.insert(finding.printed).second) continue;
         bool error = finding.severity == "error", warning = finding.severity == "warning";
@@ -72,21 +71,21 @@ void FindingLines::print(const Player& player) {
         missing_ |= is_missing_asset(finding.code);
         lacks_memory_ |= finding.code == "MEMORY";
         bool wanted = error || (!options_.quiet && (options_.verbose || warning));
-        if (!wanted) continue;
-        if (++counts_[finding.code] <= kMostOfACode || options_.verbose)
-            std::fputs(finding.printed.c_str(), stderr);
+        if (wanted)
+            lines_.add(error     ? Severity::Error
+                       : warning ? Severity::Warning
+                                 : Severity::Info,
+                       finding.code, finding.printed);
     }
+    std::fputs(lines_.take().c_str(), stderr);
 }
 
-void FindingLines::summarize() const {
-    if (options_.quiet || options_.verbose) return;
-    for (const auto& [code, count] : counts_)
-        if (count > kMostOfACode)
-            say(fmt::format("kinora: {} more of {}; -v shows all", count - kMostOfACode, code));
+void PlayerFindings::summarize() {
+    std::fputs(lines_.take_rest().c_str(), stderr);
 }
 
 int run_headless(const PlayOptions& options, Player& player) {
-    FindingLines lines(options.scene.findings);
+    PlayerFindings lines(options.scene.findings);
     player.wait_loaded(kPatience);
     lines.print(player);
     if (player.load_state() != LoadState::Ready) {

@@ -1,7 +1,6 @@
 // runtime/programs/play/headless.h: the player without a window.
 #pragma once
 
-#include <map>
 #include <set>
 #include <string>
 
@@ -10,13 +9,14 @@
 
 namespace kinora {
 
-// Findings that were not printed yet, to stderr, as the options want them: 20 of a code.
-class FindingLines {
+// Findings that were not printed yet, to stderr, as the options want them.
+class PlayerFindings {
   public:
-    explicit FindingLines(const FindingOptions& options) : options_(options) {}
+    explicit PlayerFindings(const FindingOptions& options)
+        : options_(options), lines_(options.verbose) {}
     void print(const Player& player);
     // How many there were beyond these.
-    void summarize() const;
+    void summarize();
     // There were errors, or what --fail-on names.
     bool fails() const { return fails_; }
     bool lacks_assets() const { return options_.strict && missing_; }
@@ -24,8 +24,8 @@ class FindingLines {
 
   private:
     FindingOptions options_;
+    FindingLines lines_;
     std::set<std::string> seen_;
-    std::map<std::string, size_t> counts_;  // by code, of those to be printed
     bool fails_ = false, missing_ = false, lacks_memory_ = false;
 };
 
