@@ -17,7 +17,7 @@ surface collada_constant(
     string opaque = "A_ONE";) {
     normal Nf = faceforward(normalize(N), I);
     vector In = normalize(I);
-    color C = COLOR_OF(emission);
+    color C = COLOR_OF(emission) * Cs;
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
     C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi, color(1));

@@ -17,12 +17,13 @@ surface collada_lambert(
     string opaque = "A_ONE";
     SLOT(bump, 0);
     string bump_kind = "";
-    float bump_amount = 1;) {
+    float bump_amount = 1;
+    float emission_of_body = 0;) {
     normal Nf = faceforward(bumped(bump_map, bump_kind, bump_s, bump_t, bump_amount), I);
     vector In = normalize(I);
-    color C = COLOR_OF(emission) + AMBIENT_COLOR * ambient() + COLOR_OF(diffuse) * diffuse(Nf);
+    color C = EMISSION + AMBIENT_COLOR * ambient() + BODY_COLOR * diffuse(Nf);
     Oi = slot_opacity(transparent, transparent_map, transparent_s, transparent_t,
                       transparent_alpha, transparency, opaque);
-    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi, COLOR_OF(diffuse));
+    C += mirrored(COLOR_OF(reflective), reflectivity, Nf, In, Oi, BODY_COLOR);
     Ci = Oi * C;
 }

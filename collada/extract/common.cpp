@@ -1,5 +1,6 @@
 // collada/extract/common.cpp: profile_COMMON: a shading model and its slots.
 #include <cmath>
+#include <cstdio>
 
 #include "collada/document/element_numbers_p.h"
 #include "collada/extract/extract_p.h"
@@ -126,6 +127,22 @@ void read_extras(Extraction& x, Link owner, CommonShading& common, Effect& effec
     }
 }
 
+// Blender wrote its "emit" as a grey <emission> until 2.79: its renderer added so many times the
+// diffuse color. Since 2.80 it writes the color that is emitted. Other exporters for Blender
+// (their tools' names begin otherwise) multiply by the diffuse color themselves.
+bool wrote_emit(std::string_view tool) {
+    int major = 0, minor = 0;
+    std::string text(tool.substr(0, 64));
+    if (std::sscanf(text.c_str(), "Blender %d.%d", &major, &minor) == 2)
+        return major < 2 || (major == 2 && minor < 80);
+    return text.starts_with("Blender v:2") || text.starts_with("Illusoft Collada");
+}
+
+bool is_grey(const CommonValue& value) {
+    const auto& v = value.slot.values;
+    return value.source == SlotSource::Value && v[0] == v[1] && v[1] == v[2];
+}
+
 void read_opaque(Link transparent, CommonShading& common) {
     const Attribute* a = transparent.element->attribute("opaque");
     if (!a) return;
@@ -163,6 +180,9 @@ void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& ef
         common.slots[size_t(row.slot)] = read_slot_value(x, {profile.doc, slot}, ref, effect);
         if (row.slot == CommonSlot::Transparent) read_opaque({profile.doc, slot}, common);
     }
+    common.emission_is_factor = common.model != CommonModel::Constant &&
+                                is_grey(common[CommonSlot::Emission]) &&
+                                wrote_emit(authoring_tool(x.document(profile.doc)));
     for (const Element* owner : {profile.element->parent, profile.element, technique, model})
         if (owner) read_extras(x, {profile.doc, owner}, common, effect);
     effect.common = std::move(common);

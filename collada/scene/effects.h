@@ -116,6 +116,7 @@ struct CommonShading {
     bool double_sided = true;
     bool bump_is_normals = false;  // the Bump slot holds normals, not heights
     double bump_amount = 1;
+    bool emission_is_factor = false;  // of the diffuse color: Blender's "emit", before 2.80
     Location where;
     const CommonValue& operator[](CommonSlot s) const { return slots[size_t(s)]; }
 };

@@ -272,19 +272,6 @@ bool ColladaExporter::is_rsl(const MaterialDefinition& m) const {
                         [&](const ModelRow& row) { return is_library(m.surfaces[0], row.shader); });
 }
 
-// Whether something that wears the material has vertex colours.
-bool ColladaExporter::has_vertex_colors(uint32_t material) const {
-    for (const NodeDefinition& node : description_.nodes)
-        for (const MeshUse& use : node.meshes)
-            for (const MaterialUse& worn : use.materials) {
-                if (worn.material != material) continue;
-                for (const PrimitiveGroup& group : description_.meshes[use.mesh].groups)
-                    for (const VertexAttribute& a : group.attributes)
-                        if (group.symbol == worn.symbol && a.semantic == "COLOR") return true;
-            }
-    return false;
-}
-
 std::string ColladaExporter::effect(uint32_t index) {
     const MaterialDefinition& m = description_.materials[index];
     std::string own = id(material_ids_[index] + "-effect", "effect");
@@ -298,8 +285,6 @@ std::string ColladaExporter::effect(uint32_t index) {
         CommonSurface nearest = nearest_common(*top, description_, more_values_);
         for (const std::string& what : nearest.lost)
             if (!is_rsl(m)) lost(fmt::format("material '{}'", m.id), what);
-        if (!is_rsl(m) && has_vertex_colors(index))
-            lost(fmt::format("material '{}'", m.id), "vertex colours that tint it");
         seen = std::move(nearest.use);
     }
     seen = in_modes_of_1_4(std::move(seen), own);

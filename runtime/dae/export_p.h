@@ -70,7 +70,6 @@ class ColladaExporter {
     std::string inner_file(const std::string& name) const;
     std::string effect(uint32_t material);
     bool is_rsl(const MaterialDefinition& definition) const;
-    bool has_vertex_colors(uint32_t material) const;
     std::string common(const MaterialDefinition& definition, const ShaderUse* use,
                        const std::string& effect);
     // export_rsl.cpp

@@ -245,8 +245,10 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
     // a transparency of 0 is. The mask of a texture stays.
     bool hides_all =
         data_.materials[index].invisible && options_.transparency == TransparencyMode::Auto;
+    bool emits_body = common.emission_is_factor && options_.emission == EmissionMode::Auto;
     for (const ReadSlot& row : kReadSlots) {
         const collada::CommonValue& value = common[row.slot];
+        bool factor = emits_body && row.slot == CommonSlot::Emission;
         bool mask = row.slot == CommonSlot::Transparent;
         ValueSlot slot;
         if (value.source == collada::SlotSource::Value)
@@ -258,8 +260,12 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
         bool left_out = hides_all && (mask || row.slot == CommonSlot::Transparency);
         if ((slot.count < row.count && slot.count != 1) || left_out) continue;
         ValueSlot whole{slot.offset, std::min(slot.count, row.count)};  // one number: a grey
-        add_value(use, row.name, row.display ? linear(whole) : whole);
+        add_value(use, row.name, row.display && !factor ? linear(whole) : whole);
         if (mask && slot.count >= 4) add_value(use, "transparent_alpha", {slot.offset + 3, 1});
+    }
+    if (emits_body) {
+        double whole = 1;
+        add_value(use, "emission_of_body", {append(&whole, 1), 1});
     }
     bool zero_hides =
         common.opaque == collada::Opaque::AZero || common.opaque == collada::Opaque::RgbZero;

@@ -61,9 +61,7 @@ void ColladaImport::add_linear_vertex_colors() {
             if (material.symbol != group.symbol || material.material == kNone) continue;
             const auto& surfaces = out_.materials[material.material].surfaces;
             if (surfaces.empty()) return true;
-            return surfaces.back().linear_inputs &&
-                   std::any_of(material.vertex_bindings.begin(), material.vertex_bindings.end(),
-                               [](const VertexBinding& b) { return b.semantic == "COLOR"; });
+            return surfaces.back().linear_inputs;
         }
         return true;
     };

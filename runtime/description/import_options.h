@@ -15,8 +15,20 @@ namespace kinora {
 // way).
 enum class TransparencyMode : uint8_t { Spec, Auto };
 
+// Spec: <emission> is light of its own color. Auto: in files that Blender wrote before 2.80 it is a
+// factor of the diffuse color.
+enum class EmissionMode : uint8_t { Spec, Auto };
+
+// Faces that meet at less than this many degrees are smooth where a COLLADA file has no normals.
+inline constexpr double kCreaseDegrees = 40;
+
 struct ImportOptions {
     TransparencyMode transparency = TransparencyMode::Auto;
+    EmissionMode emission = EmissionMode::Auto;
+    bool vertex_colors = true;     // tint the materials that are no RSL of the file
+    // Degrees: normals for meshes without any (0 flat, 180 all smooth). Nothing: kCreaseDegrees,
+    // but flat for glTF (glTF 2.0, 3.7.2.1).
+    std::optional<double> smooth;
     bool decode_colors = true;                     // COLLADA's display colours to linear light
     std::vector<std::string> allow_external;       // folders besides the scene's own tree
     bool confine = false;                          // pictures too: else they may lie anywhere

@@ -162,6 +162,7 @@ struct ShaderUse {
     std::shared_ptr<const rsl::Shader> shader;
     std::vector<ParamSource> params;
     bool linear_inputs = false;  // reads kLinearColor in place of COLOR where there is one
+    bool untinted = false;       // Cs is 1, whatever colours the mesh has
 
     // What a parameter is bound to; null: to nothing.
     const ParamSource* find(std::string_view name) const {
@@ -247,6 +248,7 @@ struct SceneDescription {
     PictureShaders picture;
     std::vector<ClipDefinition> clips;
     std::shared_ptr<const rsl::Shader> default_surface;  // of surfaces without material; null: ours
+    bool tints = true;  // vertex colours tint our default surface (ImportOptions::vertex_colors)
     anim::Animation animation;
     std::vector<bool> animated;  // per value: some channel writes it, or it is decoded from such
     std::vector<MovingColor> moving_colors;

@@ -7,10 +7,24 @@
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/dae/import.h"
+#include "runtime/description/shader_library.h"
 #include "runtime/gltf/import/import.h"
 #include "runtime/load/face_normals.h"
+#include "runtime/load/smooth_normals.h"
 
 namespace kinora {
+
+namespace {
+
+// Shaders of ours stand for the materials that are no RSL of the file.
+void leave_out_tints(SceneDescription& description) {
+    description.tints = false;
+    for_each_shader_use(description, [](ShaderUse& use) {
+        use.untinted = use.shader == library_shader(use.shader->name);
+    });
+}
+
+}  // namespace
 
 bool is_gltf(const std::string& path) {
     if (has_extension(path, {".gltf", ".glb"})) return true;
@@ -21,11 +35,16 @@ bool is_gltf(const std::string& path) {
 
 std::optional<SceneDescription> import_scene(const std::string& path, const ImportOptions& options,
                                              Diagnostics& diagnostics) {
-    std::optional<SceneDescription> scene = is_gltf(path)
-                                                ? import_gltf(path, options, diagnostics)
-                                                : import_collada(path, options, diagnostics);
-    if (scene) give_faces_their_normals(*scene);
-    return scene;
+    bool gltf = is_gltf(path);
+    std::optional<SceneDescription> description =
+        gltf ? import_gltf(path, options, diagnostics) : import_collada(path, options, diagnostics);
+    if (!description) return std::nullopt;
+    give_faces_their_normals(*description);
+    if (!options.vertex_colors) leave_out_tints(*description);
+    // Without normals a group is flat: nothing is to be made for 0 degrees.
+    double degrees = options.smooth.value_or(gltf ? 0 : kCreaseDegrees);
+    if (degrees > 0) smooth_normals(*description, degrees);
+    return description;
 }
 
 }  // namespace kinora

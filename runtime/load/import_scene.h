@@ -10,7 +10,7 @@
 namespace kinora {
 
 // By the file's first bytes ("glTF": a .glb), else its name (.gltf, .glb), else COLLADA. As
-// import_collada and import_gltf say.
+// import_collada and import_gltf say; then meshes without normals get those of ImportOptions.
 std::optional<SceneDescription> import_scene(const std::string& path, const ImportOptions& options,
                                              Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// runtime/load/smooth_normals.cpp: --smooth DEGREES: normals for meshes that have none.
+// runtime/load/smooth_normals.cpp: normals by crease angle for meshes that have none.
 #include "runtime/load/smooth_normals.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::vector<uint32_t> welded(const std::vector<dvec3>& positions) {
 // at one position that no crease parts.
 class Fans {
   public:
-    Fans(const MeshDefinition& mesh, double degrees) {
+    Fans(const MeshDefinition& mesh, double degrees) : least_cosine_(std::cos(radians(degrees))) {
         for (size_t g = 0; g < mesh.groups.size(); ++g) {
             if (has_normals(mesh.groups[g])) continue;
             groups_.push_back(g);
@@ -56,7 +56,27 @@ class Fans {
         }
         parent_.resize(corners_.size());
         std::iota(parent_.begin(), parent_.end(), 0u);
-        join(mesh.positions, std::cos(radians(degrees)));
+        if (!corners_.empty()) find_pairs(welded(mesh.positions));
+        crease(mesh.positions);
+    }
+
+    // With the vertices at these positions, too, edges are creases.
+    void crease(const std::vector<dvec3>& positions) {
+        std::erase_if(pairs_, [&](const Pair& pair) {
+            dvec3 m = face(positions, pair.a - pair.a % 3),
+                  n = face(positions, pair.b - pair.b % 3);
+            bool no_area = m == dvec3(0.0) || n == dvec3(0.0);
+            return !no_area && glm::dot(m, n) < least_cosine_ - 1e-9;
+        });
+    }
+
+    // Makes the fans, once all creases are known.
+    void join() {
+        for (const Pair& pair : pairs_) {
+            parent_[fan(pair.a)] = fan(pair.alike ? pair.b : next(pair.b));
+            parent_[fan(next(pair.a))] = fan(pair.alike ? next(pair.b) : pair.b);
+        }
+        pairs_ = {};
     }
 
     bool empty() const { return corners_.empty(); }
@@ -102,6 +122,10 @@ class Fans {
         uint32_t low, high;  // welded positions
         uint32_t corner;     // where it starts, in the triangle's direction
     };
+    struct Pair {
+        uint32_t a, b;  // where the edge of each face starts
+        bool alike;     // both start at one position
+    };
 
     uint32_t fan(uint32_t c) {
         while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
@@ -114,35 +138,57 @@ class Fans {
     }
     static uint32_t next(uint32_t c) { return c - c % 3 + (c + 1) % 3; }
 
-    void join(const std::vector<dvec3>& positions, double least_cosine) {
-        std::vector<uint32_t> weld = welded(positions);
-        std::vector<Edge> edges;
-        for (uint32_t c = 0; c < corners_.size(); ++c) {
-            auto [low, high] = std::minmax({weld[corners_[c]], weld[corners_[next(c)]]});
-            if (low != high) edges.push_back({low, high, c});
-        }
-        std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-            return std::tuple(a.low, a.high, a.corner) < std::tuple(b.low, b.high, b.corner);
-        });
+    // By their ends, then by where they start: counted by the lower end, since a vertex has few.
+    std::vector<Edge> sorted_edges(const std::vector<uint32_t>& weld) const {
+        auto each = [&](auto&& f) {
+            for (uint32_t c = 0; c < corners_.size(); ++c) {
+                auto [low, high] = std::minmax({weld[corners_[c]], weld[corners_[next(c)]]});
+                if (low != high) f(Edge{low, high, c});
+            }
+        };
+        std::vector<uint32_t> end(weld.size() + 1, 0);  // of the edges from a lower end
+        each([&](const Edge& e) { ++end[e.low + 1]; });
+        std::partial_sum(end.begin(), end.end(), end.begin());
+        std::vector<Edge> edges(end.back());
+        each([&](const Edge& e) { edges[end[e.low]++] = e; });
+        for (size_t low = 0, first = 0; low < weld.size(); first = end[low++])
+            std::sort(edges.begin() + ptrdiff_t(first), edges.begin() + ptrdiff_t(end[low]),
+                      [](const Edge& a, const Edge& b) {
+                          return std::pair(a.high, a.corner) < std::pair(b.high, b.corner);
+                      });
+        return edges;
+    }
+
+    // Edges at which two faces meet, and no more.
+    void find_pairs(const std::vector<uint32_t>& weld) {
+        std::vector<Edge> edges = sorted_edges(weld);
         for (size_t i = 0, end; i < edges.size(); i = end) {
             for (end = i + 1; end < edges.size() && edges[end].low == edges[i].low &&
                               edges[end].high == edges[i].high;)
                 ++end;
             if (end - i != 2) continue;
             uint32_t a = edges[i].corner, b = edges[i + 1].corner;
-            dvec3 m = face(positions, a - a % 3), n = face(positions, b - b % 3);
-            bool no_area = m == dvec3(0.0) || n == dvec3(0.0);
-            if (!no_area && glm::dot(m, n) < least_cosine - 1e-9) continue;
-            bool alike = weld[corners_[a]] == weld[corners_[b]];
-            parent_[fan(a)] = fan(alike ? b : next(b));
-            parent_[fan(next(a))] = fan(alike ? next(b) : b);
+            pairs_.push_back({a, b, weld[corners_[a]] == weld[corners_[b]]});
         }
     }
 
+    std::vector<Pair> pairs_;  // that are no creases so far
+    double least_cosine_;
     std::vector<size_t> groups_;
     std::vector<uint32_t> corners_;  // positions
     std::vector<uint32_t> parent_;   // of a corner, in its fan
 };
+
+// Where the vertices of the base are when a target has its whole weight.
+std::vector<dvec3> moved_by(const SceneDescription& description, const MeshDefinition& base,
+                            uint32_t morph, uint32_t target) {
+    const std::vector<dvec3>& positions = description.meshes[target].positions;
+    bool relative = description.morphs[morph].relative;
+    std::vector<dvec3> moved = base.positions;
+    for (size_t i = 0; i < std::min(moved.size(), positions.size()); ++i)
+        moved[i] = relative ? moved[i] + positions[i] : positions[i];
+    return moved;
+}
 
 // The targets of a morph with normals for the groups of the base that now have some: copies, since
 // other meshes may share what they are.
@@ -152,10 +198,8 @@ void smooth_targets(SceneDescription& description, const MeshDefinition& base, u
     for (uint32_t& target : description.morphs[morph].targets) {
         MeshDefinition copy = description.meshes[target];
         copy.groups.resize(base.groups.size());
-        std::vector<dvec3> moved = base.positions;
-        for (size_t i = 0; i < std::min(moved.size(), copy.positions.size()); ++i)
-            moved[i] = relative ? moved[i] + copy.positions[i] : copy.positions[i];
-        std::vector<VertexAttribute> normals = fans.normals(base, moved);
+        std::vector<VertexAttribute> normals =
+            fans.normals(base, moved_by(description, base, morph, target));
         for (size_t k = 0; k < normals.size(); ++k) {
             for (size_t v = 0; relative && v < normals[k].values.size(); ++v)
                 normals[k].values[v] -= rest[k].values[v];
@@ -178,6 +222,10 @@ void smooth_normals(SceneDescription& description, double degrees) {
     for (size_t m = 0; m < morphs.size(); ++m) {
         Fans fans(description.meshes[m], degrees);
         if (fans.empty()) continue;
+        for (uint32_t morph : morphs[m])
+            for (uint32_t target : description.morphs[morph].targets)
+                fans.crease(moved_by(description, description.meshes[m], morph, target));
+        fans.join();
         std::vector<VertexAttribute> normals =
             fans.normals(description.meshes[m], description.meshes[m].positions);
         const MeshDefinition base = morphs[m].empty() ? MeshDefinition() : description.meshes[m];

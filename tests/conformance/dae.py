@@ -1,4 +1,5 @@
 """tests/conformance/dae.py: COLLADA documents of one small object, part by part, for the pairs."""
+import math
 import struct
 import zlib
 
@@ -79,6 +80,27 @@ def sources(id="house", points=POINTS):
 def geometry(primitives=None, id="house", points=POINTS, extra=""):
     return (f'<geometry id="{id}"><mesh>{sources(id, points)}{primitives or triangles(id)}\n</mesh>'
             f'{extra}</geometry>\n')
+
+
+def prism(sides, smooth=None):
+    """An upright prism. `smooth`: with normals, along the sides' corners or of the flat faces."""
+    turn = [2 * math.pi * k / sides for k in range(sides)]
+    rings = [(.6 * math.cos(t), y, .6 * math.sin(t)) for y in (-.5, .5) for t in turn]
+    at = [(math.cos(t), 0, math.sin(t)) for t in turn]
+    middle = [(math.cos(t + math.pi / sides), 0, math.sin(t + math.pi / sides)) for t in turn]
+    ends, first = ([(0, -1, 0), (0, 1, 0)], 2)
+    faces = [[(k, 0) for k in range(sides)], [(sides + k, 1) for k in reversed(range(sides))]]
+    for k in range(sides):
+        n = (k + 1) % sides
+        here, there = (first + k, first + n) if smooth else (first + k, first + k)
+        faces.append([(k, here), (sides + k, here), (sides + n, there), (n, there)])
+    vectors = source("prism-n", ends + (at if smooth else middle), "XYZ") if smooth is not None else ""
+    normal = '<input semantic="NORMAL" source="#prism-n" offset="1"/>' if vectors else ""
+    p = " ".join(f"{v} {n}" if vectors else f"{v}" for face in faces for v, n in face)
+    return (f'<geometry id="house"><mesh>{source("prism-p", rings, "XYZ")}{vectors}<vertices id="prism-v"><input '
+            f'semantic="POSITION" source="#prism-p"/></vertices><polylist count="{len(faces)}" material="m"><input '
+            f'semantic="VERTEX" source="#prism-v" offset="0"/>{normal}<vcount>{" ".join(str(len(f)) for f in faces)}'
+            f'</vcount><p>{p}</p></polylist></mesh></geometry>')
 
 
 LAMBERT = '<lambert><diffuse><color>.8 .5 .2 1</color></diffuse></lambert>'

@@ -282,6 +282,26 @@ def normals():
     return {"given": plain(), "none": plain(geometries=geometry(without))}
 
 
+def smooth_sides():
+    """Faces that turn by 30 degrees are smooth where the mesh has no normals; the ends keep their creases."""
+    return {"none": plain(geometries=prism(12)), "given": plain(geometries=prism(12, smooth=True))}
+
+
+def flat_sides():
+    """Those that turn by 45 degrees are flat."""
+    return {"none": plain(geometries=prism(8)), "given": plain(geometries=prism(8, smooth=False))}
+
+
+def smoothed_sides():
+    """--smooth 50"""
+    return {"none": plain(geometries=prism(8)), "given": plain(geometries=prism(8, smooth=True))}
+
+
+def flattened_sides():
+    """--smooth 0"""
+    return {"none": plain(geometries=prism(12)), "given": plain(geometries=prism(12, smooth=False))}
+
+
 def only_materials():
     """Primitives without a symbol, or with one that is bound nowhere, and one material."""
     return {"named": plain(), "without": plain(geometries=geometry(triangles().replace(' material="m"', ""))),
@@ -548,12 +568,82 @@ def image_files():
 
 
 def texture_coordinates():
-    """The set that bind_vertex_input names, by number or silence; without it, the one there is."""
-    return {"bound": textured(), "no_set": textured(inside=UV.replace(' input_set="0"', "")),
+    """The set that bind_vertex_input names, by number or silence; without it, the one there is. Of two with
+    one number the first."""
+    def twice(set):
+        return textured(geometries=geometry(triangles().replace(
+            ' set="0"/>', f'{set}/><input semantic="TEXCOORD" source="#house-n" offset="1"{set}/>')))
+    def called(name):
+        return textured(geometries=geometry(triangles().replace('"TEXCOORD"', f'"{name}"')))
+    return {"missing_set": textured(inside=UV.replace('input_set="0"', 'input_set="3"')),
+            "missing_semantic": textured(inside=UV.replace('"TEXCOORD"', '"UVMap"')),
+            "by_uv": called("UV"), "by_number": called("TEXCOORD0"), "twice": twice(' set="0"'), "twice_without_set": twice(""), "bound": textured(), "no_set": textured(inside=UV.replace(' input_set="0"', "")),
             "unbound": textured(inside=""),
             "direct_image": textured(texture='<texture texture="map" texcoord="UV"/>'),
             "no_texcoord": textured(texture='<texture texture="map-sampler"/>'),
             "map.png": png(picture())}
+
+
+def images_without_file():
+    """Checks, as for a file that is not there."""
+    inside = "<init_from>map.png</init_from>"
+    return {"missing": textured(path="none.png"), "empty": textured(path=""),
+            "absent": textured().replace(inside, "")}
+
+
+def linear(v):  # IEC 61966-2-1
+    return v / 12.92 if v <= .04045 else ((v + .055) / 1.055) ** 2.4
+
+
+def display(v):
+    return 12.92 * v if v <= .0031308 else 1.055 * v ** (1 / 2.4) - .055
+
+
+def by_tool(tool, text):
+    return text.replace("<created>", f"<contributor><authoring_tool>{tool}</authoring_tool></contributor><created>", 1)
+
+
+def emissions():
+    """Blender before 2.80 wrote a factor of the diffuse colour, whatever its version is called."""
+    diffuse = (.8, .5, .2)
+
+    def seen(glow, tool=""):
+        text = plain(effects=effect(f"<phong><emission><color>{numbers(glow)} 1</color></emission><diffuse><color>"
+                                    f"{numbers(diffuse)} 1</color></diffuse></phong>"))
+        return by_tool(tool, text) if tool else text
+    light = [display(.3 * linear(v)) for v in diffuse]
+    return {"light": seen(light), "since": seen(light, "Blender 2.80.75 commit date:2019-07-29"),
+            "before": seen([.3] * 3, "Blender 2.79.0 commit date:2018-03-22, commit time:14:10, hash:f4dc9f9d68b"),
+            "old": seen([.3] * 3, "Blender 2.63.0 r45996"),
+            "oldest": seen([.3] * 3, "Blender v:249 - Illusoft Collada Exporter v:0.3.162"),
+            "other": seen(light, "Collada Exporter for Blender 2.6+, by Juan Linietsky (juan@codenix.com)")}
+
+
+def textured_emissions():
+    """All of a diffuse texture's light."""
+    both = ("<lambert><emission>{}</emission><diffuse><texture texture=\"map-sampler\" texcoord=\"UV\"/></diffuse>"
+            "</lambert>")
+    whole = textured()
+    slot = '<lambert><diffuse><texture texture="map-sampler" texcoord="UV"/></diffuse></lambert>'
+    return {"light": whole.replace(slot, both.format('<texture texture="map-sampler" texcoord="UV"/>')),
+            "factor": by_tool("Blender 2.72.0", whole.replace(slot, both.format("<color>1 1 1 1</color>"))),
+            "map.png": png(picture())}
+
+
+def vertex_colours():
+    """They multiply the material's light, and the default one's; alpha does nothing."""
+    def coloured(rgba, **parts):
+        rows = "".join(f"{v} " for v in rgba * len(POINTS))
+        colors = (f'<source id="house-c"><float_array id="house-c-array" count="{4 * len(POINTS)}">{rows}</float_array>'
+                  f'<technique_common><accessor source="#house-c-array" count="{len(POINTS)}" stride="4">'
+                  + "".join(f'<param name="{p}" type="float"/>' for p in "RGBA") + "</accessor></technique_common></source>")
+        mesh = geometry(triangles().replace(" set=\"0\"/>", ' set="0"/><input semantic="COLOR" source="#house-c" '
+                                            'offset="0" set="0"/>', 1)).replace("<vertices", colors + "<vertices", 1)
+        return plain(geometries=mesh, **parts)
+    tinted = [display(linear(v) * linear(w)) for v, w in zip((.8, .5, .2), (.5, 1, .75))]
+    body = lambda rgb: effect(f"<lambert><diffuse><color>{numbers(rgb)} 1</color></diffuse></lambert>")  # noqa: E731
+    return {"colour": plain(effects=body(tinted)), "tint": coloured((.5, 1, .75, .1)),
+            "tint_of_white": coloured((*tinted, 1), effects=body((1, 1, 1)))}
 
 
 def kept():
@@ -573,8 +663,9 @@ def kept():
 
 FAMILIES = {f.__name__: f for f in (
     primitives, inputs, solids, polygons_with_holes, transforms, cameras_by_lookat, skews, references, bases, absolute_references,
-    samplers, versions, units, assets, normals, only_materials,
+    samplers, versions, units, assets, normals, smooth_sides, flat_sides, smoothed_sides, flattened_sides, only_materials,
     archives, fields_of_view, magnifications, instances, skins, skin_spaces, armatures, mirrors, morphs, targets, curves, colours, opacities, masks, display_colours, legacy_colours,
-    image_files, texture_coordinates, kept)}
-OPTIONS = {"skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"],
+    image_files, texture_coordinates, images_without_file, emissions, textured_emissions, vertex_colours, kept)}
+OPTIONS = {"smoothed_sides": ["--smooth", "50", "--time", "0"], "flattened_sides": ["--smooth", "0", "--time", "0"],
+           "skin_spaces": ["--time", "1"], "targets": ["--time", "0.5"], "curves": ["--time", "0.5"], "morphs": ["--time", "0.5"],
            "legacy_colours": ["--color", "legacy", "--time", "0"]}

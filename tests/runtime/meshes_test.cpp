@@ -323,6 +323,28 @@ TEST(Smooth, MorphTargetsGetThoseOfTheirShape) {
     expect_near(normal_at(description.meshes[made], 2), glm::normalize(dvec3(0, -front, -below)));
 }
 
+// A flat sheet that a target folds has its crease from the start, so that the fold stays sharp.
+TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
+    SceneDescription description;
+    MeshDefinition sheet =
+        mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3});
+    description.meshes.push_back(sheet);
+    for (dvec3& p : sheet.positions) p = {0, 0, p.x == 1 && p.y == 0 ? 1.0 : 0.0};
+    description.meshes.push_back(sheet);  // lifts one corner
+    MorphDefinition& morph = description.morphs.emplace_back();
+    morph.relative = true;
+    morph.targets = {1};
+    MeshUse& use = description.nodes.emplace_back().meshes.emplace_back();
+    use.mesh = 0;
+    use.morph = 0;
+    smooth_normals(description, 40);
+    const MeshDefinition& target = description.meshes[description.morphs[0].targets[0]];
+    // (1, 0, 1) x (1, 1, 0) = (-1, 1, 1); relative to the normal at rest.
+    const double s = 1 / std::sqrt(3.0);
+    for (size_t corner : {0u, 1u, 2u}) expect_near(normal_at(target, corner), {-s, s, s - 1});
+    for (size_t corner : {3u, 4u, 5u}) expect_near(normal_at(target, corner), {0, 0, 0});
+}
+
 // ---- morphs on morphs and skins
 
 // Where the first vertex stands in the world.

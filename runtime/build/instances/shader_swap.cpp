@@ -34,7 +34,7 @@ bool same_source(const Edited& a, const ParamSource& p, const Edited& b, const P
 }
 
 bool same_use(const Edited& a, const ShaderUse& p, const Edited& b, const ShaderUse& q) {
-    return p.shader == q.shader && p.linear_inputs == q.linear_inputs &&
+    return p.shader == q.shader && p.linear_inputs == q.linear_inputs && p.untinted == q.untinted &&
            std::ranges::equal(p.params, q.params, [&](const auto& one, const auto& other) {
                return same_source(a, one, b, other);
            });
@@ -87,6 +87,7 @@ bool same_interface(const ShaderUse& a, const ShaderUse& b) {
         return names;
     };
     return a.shader->kind == b.shader->kind && a.linear_inputs == b.linear_inputs &&
+           a.untinted == b.untinted &&
            std::ranges::equal(a.shader->parameters, b.shader->parameters, same) &&
            reads_Cs(*a.shader) == reads_Cs(*b.shader) && maps(a) == maps(b);
 }

@@ -53,6 +53,7 @@ const MaterialDefinition& SurfaceInstances::default_material() {
     ShaderUse use;
     use.shader = own ? own : library_shader("default_surface");
     use.linear_inputs = !own;
+    use.untinted = !own && !scene_.description->tints;
     default_material_.surfaces.push_back(std::move(use));
     return default_material_;
 }

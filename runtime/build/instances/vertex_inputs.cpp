@@ -60,6 +60,7 @@ class InputFinder {
     }
 
     void add_color(const ShaderUse& layer) {
+        if (layer.untinted) return;
         const VertexAttribute* color = read_by(layer, find_attribute(group_, "COLOR"));
         if (color && color->stride >= 3) add("Cs", "COLOR", color, 0, 3);
     }

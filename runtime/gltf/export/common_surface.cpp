@@ -106,6 +106,11 @@ Json SurfaceWriter::common(const MaterialDefinition& definition, const ShaderUse
     extend(material, "KHR_materials_specular", layer);
     if (!shines) extend(material, "KHR_materials_ior", {{"ior", 1.0}});
     dvec3 emission = p.color("emission", 0);
+    bool of_body = p.number("emission_of_body", 0) != 0;  // a factor of what lights meet
+    if (of_body && pbr.contains("baseColorTexture"))
+        material["emissiveTexture"] = pbr["baseColorTexture"];
+    else if (of_body)
+        emission *= base;
     if (Json info = map_info(shader, "emission", use, group); !info.is_null()) {
         material["emissiveTexture"] = info;
         emission = dvec3(1.0);

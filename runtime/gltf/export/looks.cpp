@@ -9,6 +9,7 @@
 #include "runtime/description/picture_rules.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/gltf/export/params.h"
+#include "runtime/gltf/export/surfaces.h"
 
 namespace kinora {
 
@@ -64,10 +65,13 @@ GltfLook GltfLooks::look_of(const MeshUse& use, const PrimitiveGroup& group) {
     }
     bool is_plain = !bound || bound->material == kNone;
     GltfLook look{is_plain ? plain_ : description_.materials[bound->material],
-                  bound ? *bound : unbound_, is_plain, false};
+                  bound ? *bound : unbound_, is_plain, false, false};
     const std::vector<ShaderUse>& surfaces = look.definition.surfaces;
     look.is_gltf = !surfaces.empty() && (is_library_shader(surfaces.back(), "gltf_pbr") ||
                                          is_library_shader(surfaces.back(), "gltf_unlit"));
+    look.tinted = !surfaces.empty() && !surfaces.back().untinted &&
+                  (is_common_surface(surfaces.back()) ||
+                   is_library_shader(surfaces.back(), "default_surface"));
     return look;
 }
 
@@ -97,8 +101,9 @@ std::vector<GltfAttribute> attributes_of(const GltfLook& look, const PrimitiveGr
         uint32_t index = seen[a->semantic]++;
         std::string name = a->semantic;
         if (!own || index > 0) name += fmt::format("_{}", index);
-        if (!texcoord && !tangent && !(color && look.is_gltf)) name = "_" + name;
-        result.push_back({std::move(name), a, texcoord ? 2 : a->stride, read_by(look, group, *a)});
+        if (!texcoord && !tangent && !(color && (look.is_gltf || look.tinted))) name = "_" + name;
+        uint32_t width = texcoord ? 2 : color && look.tinted ? 3 : a->stride;
+        result.push_back({std::move(name), a, width, read_by(look, group, *a)});
     }
     return result;
 }

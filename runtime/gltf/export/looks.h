@@ -16,6 +16,7 @@ struct GltfLook {
     const MaterialUse& bound;
     bool is_plain;  // it has no material
     bool is_gltf;   // one of glTF's own, as import_gltf makes them
+    bool tinted;    // COLOR multiplies it, but not COLOR's alpha: profile_COMMON, no material
 };
 
 struct GltfAttribute {

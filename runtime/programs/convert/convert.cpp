@@ -23,6 +23,7 @@
 #include "runtime/gltf/document/glb.h"
 #include "runtime/gltf/export/export.h"
 #include "runtime/load/import_scene.h"
+#include "runtime/load/smooth_normals.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/convert/worn_shaders_p.h"
 #include "runtime/programs/convert/write_whole_p.h"
@@ -70,10 +71,12 @@ class Conversion {
             }
         ColladaExport document;
         std::string bytes;
-        if (to_dae)
+        if (to_dae) {
+            smooth_normals(scene_, 0);  // what lacks normals is flat; in a .dae it would be creased
             document = export_collada(scene_, options_.output, diag_);
-        else
+        } else {
             bytes = export_glb(scene_, gltf_options(), diag_);
+        }
         if (int code = tell(true)) return code;
         if (to_dae) return finish_collada(watch, std::move(document));
         if (int failed = write_unpacked()) return failed;

@@ -15,7 +15,6 @@
 #include "runtime/load/import_scene.h"
 #include "runtime/load/override_scene.h"
 #include "runtime/load/override_shader.h"
-#include "runtime/load/smooth_normals.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/scene/camera.h"
 
@@ -54,6 +53,9 @@ ImportOptions import_options(const SceneRequest& request) {
     import.up_axis = request.up_axis;
     import.meter = request.meter;
     import.transparency = request.transparency;
+    import.emission = request.emission;
+    import.vertex_colors = request.vertex_colors;
+    import.smooth = request.smooth;
     import.decode_colors = request.color == ColorEncoding::Srgb;
     import.include_directories = request.include_directories;
     return import;
@@ -82,7 +84,6 @@ void change(SceneDescription& description, const SceneRequest& request, Diagnost
     for (const auto& [target, value] : request.params)
         override_param(description, target, value, diagnostics);
     override_visibility(description, request.hide, request.only, diagnostics);
-    if (request.smooth) smooth_normals(description, *request.smooth);
 }
 
 void set_range(ImportedScene& imported, const SceneRequest& request) {

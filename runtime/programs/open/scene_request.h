@@ -51,8 +51,10 @@ struct SceneRequest {
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;
-    std::optional<double> smooth;  // degrees: normals for meshes without any
+    std::optional<double> smooth;  // ImportOptions
     TransparencyMode transparency = TransparencyMode::Auto;
+    EmissionMode emission = EmissionMode::Auto;
+    bool vertex_colors = true;
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too
     FindingOptions findings;

@@ -172,6 +172,11 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
         app, "--transparency", o.transparency,
         {{"auto", TransparencyMode::Auto}, {"spec", TransparencyMode::Spec}},
         "auto: what the formula makes invisible everywhere is opaque; or spec");
+    add_choice<EmissionMode>(
+        app, "--emission", o.emission, {{"auto", EmissionMode::Auto}, {"spec", EmissionMode::Spec}},
+        "auto: a factor of the diffuse color where Blender before 2.80 wrote it; or spec");
+    add_choice<bool>(app, "--vertex-colors", o.vertex_colors, {{"tint", true}, {"off", false}},
+                     "tint materials that are no RSL of the scene; or off");
 }
 
 // What is tried on the scene without editing it. MATERIAL and NODE are ids, names or globs.
@@ -187,7 +192,8 @@ void declare_changes(CLI::App& app, Given& given, RenderOptions& o) {
     add_list(app, "--only", o.only, "NODE: without the meshes that are not below it");
     app.add_option(
            "--smooth", o.smooth,
-           "DEGREES: smooth normals for meshes without any, creases where faces turn by more")
+           "DEGREES: normals for meshes without any, creases where faces turn by more: 0 is flat, "
+           "180 smooth (40; glTF 0)")
         ->check(CLI::Range(0.0, 180.0));
     add_list(app, "-I", o.include_directories, "DIR: where shaders find #include files");
     add_list(app, "--allow-external", o.allow_external,

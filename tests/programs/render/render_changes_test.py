@@ -102,6 +102,33 @@ class Changes(ProgramTest):
         self.assertEqual(self.sides(scene=lit)[0], (255, 0, 0))  # it faces the light
         self.assertEqual(self.sides("--param", "lamp.lightcolor=0.2", scene=lit)[0], (51, 0, 0))
 
+    def test_emission_is_a_factor_where_old_blender_wrote_it(self):
+        text = self.scene.read_text().replace("constant>", "lambert>").replace("1 0 0 1", ".5 .5 .5 1").replace(
+            "</emission>", "</emission><diffuse><color>0 .4 .8 1</color></diffuse>").replace(
+            "<color>1 1 1</color></directional>", "<color>0 0 0</color></directional>")
+        tool = "<contributor><authoring_tool>Blender 2.78.4</authoring_tool></contributor>"
+        old = self.write("old.dae", text.replace("<asset>", "<asset>" + tool))
+        self.assertEqual(self.sides("--lights", "scene", scene=old)[0], (0, 51, 102))
+        self.assertEqual(self.sides("--lights", "scene", "--emission", "spec", scene=old)[0], (128, 128, 128))
+        other = self.write("other.dae", text)
+        self.assertEqual(self.sides("--lights", "scene", scene=other)[0], (128, 128, 128))
+
+    def test_vertex_colors_tint_unless_they_are_off(self):
+        colors = ('<source id="c"><float_array id="ca" count="4">0 .4 .8 0</float_array><technique_common>'
+                  '<accessor source="#ca" count="1" stride="4"><param name="R" type="float"/><param name="G" type="float"/>'
+                  '<param name="B" type="float"/><param name="A" type="float"/></accessor></technique_common></source>')
+        text = self.scene.read_text().replace('<color>1 0 0 1', '<color>1 .5 .5 1').replace(
+            '<vertices', colors + '<vertices').replace('offset="0"/><p>0 1 2 0 2 3', 'offset="0"/><input semantic="COLOR" '
+                                                       'source="#c" offset="1"/><p>0 0 1 0 2 0 0 0 2 0 3 0')
+        scene = self.write("colored.dae", text)
+        self.assertEqual(self.sides(scene=scene), ((0, 51, 102), (128, 128, 128)))  # RSL reads them or not
+        self.assertEqual(self.sides("--vertex-colors", "off", scene=scene), ((255, 128, 128), (128, 128, 128)))
+        plain = self.write("plain.dae", text.replace('target="#red"', 'target="#gone"'))
+        shade = ("--lights", "default")
+        tinted, white = (self.sides(*shade, *words, scene=plain)[0] for words in ((), ("--vertex-colors", "off")))
+        self.assertEqual(tinted[0], 0)
+        self.assertEqual(len(set(white)), 1, white)
+
     def test_params_that_do_not_fit_are_explained(self):
         out = ("-o", self.folder / "b.png", *SMALL)
         rows = [("grey.1.kd=1", "did you mean 'Kd'?"), ("grey.1.nothing_near=1", "there are"),
