@@ -70,6 +70,8 @@ surface gltf_pbr(
     float dielectric_F0 = 0.04;
     float specular = 1;
     color specular_color = 1;
+    float specular_glossiness = 0;
+    MAP(specular_glossiness);
     float mirrors = 0;
     string alpha_mode = "OPAQUE";
     float alpha_cutoff = 0.5;
@@ -96,6 +98,15 @@ surface gltf_pbr(
         metal *= float texture(metallic_roughness_map[2], ss, tt);
         rough *= float texture(metallic_roughness_map[1], ss, tt);
     }
+    /* KHR_materials_pbrSpecularGlossiness: the specular color is F0, and takes its share of the base. */
+    color shine = specular_color;
+    if (specular_glossiness_map != "") {
+        float ss = S_OF(specular_glossiness), tt = T_OF(specular_glossiness);
+        shine *= color texture(specular_glossiness_map, ss, tt);
+        rough = 1 - (1 - rough) * float texture(specular_glossiness_map[3], ss, tt);
+    }
+    if (specular_glossiness != 0)
+        base *= max(1 - max(comp(shine, 0), comp(shine, 1), comp(shine, 2)), 0);
     rough = clamp(rough, 0, 1);
     metal = clamp(metal, 0, 1);
     float alpha2 = max(rough * rough, 0.002);
@@ -112,7 +123,7 @@ surface gltf_pbr(
     float NV = max(abs(Nf . V), 0.0001);
 
     /* KHR_materials_specular */
-    color F0 = mix(specular * min(dielectric_F0 * specular_color, color(1)), base, metal);
+    color F0 = mix(specular * min(dielectric_F0 * shine, color(1)), base, metal);
     float F90 = mix(specular, 1, metal);
     color under = base * (1 - metal);
     color light = 0;

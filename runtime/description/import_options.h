@@ -25,6 +25,7 @@ inline constexpr double kCreaseDegrees = 40;
 struct ImportOptions {
     TransparencyMode transparency = TransparencyMode::Auto;
     EmissionMode emission = EmissionMode::Auto;
+    bool ignore_required = false;  // extensions that a glTF file requires and nothing here knows
     bool vertex_colors = true;     // tint the materials that are no RSL of the file
     // Degrees: normals for meshes without any (0 flat, 180 all smooth). Nothing: kCreaseDegrees,
     // but flat for glTF (glTF 2.0, 3.7.2.1).

@@ -16,6 +16,7 @@
 #include "runtime/base/uri/package_uri.h"
 #include "runtime/description/findings.h"
 #include "runtime/gltf/file/check.h"
+#include "runtime/gltf/file/extensions.h"
 #include "runtime/gltf/file/indices.h"
 #include "runtime/gltf/file/json_scan.h"
 
@@ -24,27 +25,6 @@ namespace kinora {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What is understood of extensions; others in extensionsRequired are refused.
-constexpr std::string_view kExtensions[] = {
-    "KHR_lights_punctual",    "KHR_materials_unlit", "KHR_texture_transform",
-    "KHR_mesh_quantization",  "KHR_materials_ior",   "KHR_materials_emissive_strength",
-    "KHR_materials_specular", "KHR_node_visibility",
-};
-
-bool is_understood(const std::string& extension) {
-    return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
-           std::end(kExtensions);
-}
-
-// Whether the picture would be another one with it.
-bool is_shown(const std::string& extension) {
-    constexpr std::string_view kShown[] = {"_materials_", "_texture_",   "_mesh_",
-                                           "_lights_",    "_animation_", "_draco_"};
-    return std::any_of(std::begin(kShown), std::end(kShown), [&](std::string_view part) {
-        return extension.find(part) != std::string::npos;
-    });
-}
 
 // "" or why not.
 std::string read_bytes(const std::string& path, size_t limit, std::vector<unsigned char>& bytes) {
@@ -237,24 +217,6 @@ void report_indices(const GltfFile& file, const GltfIndices& indices, Diagnostic
                            indices.fault_count - indices.faults.size());
 }
 
-bool check_extensions(const GltfFile& file, Diagnostics& diagnostics) {
-    bool understood = true;
-    std::vector<std::string> required = json_strings(file.json, "/extensionsRequired");
-    for (const std::string& extension : required) {
-        if (is_understood(extension)) continue;
-        diagnostics.report(Code::GLTF_EXTENSION_REQUIRED,
-                           gltf_location(file, "/extensionsRequired"), extension);
-        understood = false;
-    }
-    for (const std::string& extension : json_strings(file.json, "/extensionsUsed"))
-        if (!is_understood(extension) &&
-            std::find(required.begin(), required.end(), extension) == required.end())
-            diagnostics.report(
-                is_shown(extension) ? Code::GLTF_EXTENSION_SHOWN : Code::GLTF_EXTENSION,
-                gltf_location(file, "/extensionsUsed"), extension);
-    return understood;
-}
-
 }  // namespace
 
 std::string gltf_path(const GltfFile& file, const std::string& uri) {
@@ -318,7 +280,7 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
     if (error.empty()) error = check_version(file.json);
     if (!error.empty()) return fail(error);
     // What is required of readers says why buffers and accessors look broken to one without it.
-    if (!check_extensions(file, diagnostics)) return std::nullopt;
+    if (!check_extensions(file, options, diagnostics)) return std::nullopt;
     error = check_gltf_json(file.json, is_binary(bytes));
     if (!error.empty()) return fail(error);
     const GltfIndices indices = check_gltf_indices(file.json);

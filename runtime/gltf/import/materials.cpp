@@ -9,6 +9,7 @@
 #include "runtime/description/findings.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/gltf/file/value.h"
+#include "runtime/gltf/import/specular_glossiness.h"
 #include "runtime/gltf/import/values.h"
 
 namespace kinora {
@@ -88,32 +89,53 @@ ShaderUse MaterialImporter::shader_of(const tinygltf::Material& from, const std:
     bool unlit = from.extensions.contains("KHR_materials_unlit");
     ShaderUse use;
     use.shader = library_shader(unlit ? "gltf_unlit" : "gltf_pbr");
+    auto glossy = from.extensions.find(kSpecularGlossiness);
+    bool is_glossy = glossy != from.extensions.end();
+    std::string own = pointer + "/extensions/" + kSpecularGlossiness;
+    if (is_glossy)
+        set_diffuse_base(glossy->second, own, textures_, use, out_.values);
+    else
+        set_base(from, pointer, use);
+    set_string(use, "alpha_mode", from.alphaMode);
+    set_one(use, "alpha_cutoff", std::isfinite(from.alphaCutoff) ? from.alphaCutoff : 0.5);
+    if (unlit) return use;
+    // A flag, not the roughness itself: what decides the control flow makes a kernel of its own.
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    bool mirrors = pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0;
+    if (is_glossy)
+        mirrors = set_specular_glossiness(glossy->second, own, textures_, use, out_.values);
+    else
+        set_metal(from, pointer, use);
+    set_lit(from, pointer, use);
+    if (!is_glossy) set_reflection(from, pointer, use);
+    set_one(use, "mirrors", mirrors);
+    return use;
+}
+
+void MaterialImporter::set_base(const tinygltf::Material& from, const std::string& pointer,
+                                ShaderUse& use) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     std::vector<double> base = factor(pbr.baseColorFactor, 4, 1.0);
     set_number(use, "base_color", std::span(base).first(3), out_.values);
     set_number(use, "base_alpha", std::span(base).last(1), out_.values);
-    set_string(use, "alpha_mode", from.alphaMode);
-    set_one(use, "alpha_cutoff", std::isfinite(from.alphaCutoff) ? from.alphaCutoff : 0.5);
     textures_.set_map(use, "base_color", info_of(pbr.baseColorTexture), false,
                       pointer + "/pbrMetallicRoughness/baseColorTexture");
-    if (unlit) return use;
-    set_lit(from, pointer, use);
-    set_reflection(from, pointer, use);
-    // A flag, not the roughness itself: what decides the control flow makes a kernel of its own.
-    set_one(use, "mirrors", pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0);
-    return use;
+}
+
+void MaterialImporter::set_metal(const tinygltf::Material& from, const std::string& pointer,
+                                 ShaderUse& use) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    set_one(use, "metallic", factor({pbr.metallicFactor}, 1, 1.0)[0]);
+    set_one(use, "roughness", factor({pbr.roughnessFactor}, 1, 1.0)[0]);
+    textures_.set_map(use, "metallic_roughness", info_of(pbr.metallicRoughnessTexture), true,
+                      pointer + "/pbrMetallicRoughness/metallicRoughnessTexture");
 }
 
 void MaterialImporter::set_lit(const tinygltf::Material& from, const std::string& pointer,
                                ShaderUse& use) {
-    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     auto map = [&](const char* name, const auto& info, bool data, const char* of) {
         textures_.set_map(use, name, info_of(info), data, pointer + of);
     };
-    set_one(use, "metallic", factor({pbr.metallicFactor}, 1, 1.0)[0]);
-    set_one(use, "roughness", factor({pbr.roughnessFactor}, 1, 1.0)[0]);
-    map("metallic_roughness", pbr.metallicRoughnessTexture, true,
-        "/pbrMetallicRoughness/metallicRoughnessTexture");
     set_one(use, "normal_scale",
             std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1);
     map("normal", from.normalTexture, true, "/normalTexture");

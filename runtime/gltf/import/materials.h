@@ -32,6 +32,8 @@ class MaterialImporter {
   private:
     void import_material(uint32_t index, UniqueIds& ids);
     ShaderUse shader_of(const tinygltf::Material& from, const std::string& pointer);
+    void set_base(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
+    void set_metal(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
     void set_lit(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
     void set_reflection(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
     void set_one(ShaderUse& use, const char* name, double value);

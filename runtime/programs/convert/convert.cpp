@@ -108,6 +108,7 @@ class Conversion {
         ImportOptions import;
         import.allow_external = options_.allow_external;
         import.confine = options_.confine;
+        import.ignore_required = options_.ignore_required;
         import.include_directories = options_.include_directories;
         std::optional<SceneDescription> scene = import_scene(options_.input, import, diag_);
         if (scene) scene_ = std::move(*scene);

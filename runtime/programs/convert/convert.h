@@ -29,6 +29,7 @@ struct ConvertOptions {
     double animation_error = 1e-4;            // GltfExportOptions
     std::vector<std::string> allow_external;  // folders outside the scene's that it may read
     bool confine = false;                     // pictures too
+    bool ignore_required = false;             // ImportOptions
     int threads = 0;                          // 0: all
     FindingOptions findings;
     bool stats = false, stats_json = false;

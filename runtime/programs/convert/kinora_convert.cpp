@@ -60,6 +60,8 @@ void declare(CLI::App& app, Given& given, ConvertOptions& o) {
              "DIR: a folder outside the scene's that it may read files of");
     app.add_flag("--confine", o.confine,
                  "read pictures too only there; else they may lie anywhere");
+    app.add_flag("--ignore-required", o.ignore_required,
+                 "read a glTF file without the extensions that it requires and Kinora lacks");
     app.add_flag("--strict", o.findings.strict,
                  "what is missing, refused or left out is an error, and so is what the output "
                  "cannot hold");

@@ -55,6 +55,7 @@ ImportOptions import_options(const SceneRequest& request) {
     import.transparency = request.transparency;
     import.emission = request.emission;
     import.vertex_colors = request.vertex_colors;
+    import.ignore_required = request.ignore_required;
     import.smooth = request.smooth;
     import.decode_colors = request.color == ColorEncoding::Srgb;
     import.include_directories = request.include_directories;

@@ -55,6 +55,7 @@ struct SceneRequest {
     TransparencyMode transparency = TransparencyMode::Auto;
     EmissionMode emission = EmissionMode::Auto;
     bool vertex_colors = true;
+    bool ignore_required = false;
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too
     FindingOptions findings;

@@ -83,7 +83,8 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
                         o.turntable.value_or(0), o.turntable || o.follow ? rate : 0.0, o.yfov,
                         point(o.look_from), o.look_at);
     if (o.smooth) text += fmt::format(" smooth {}", *o.smooth);
-    text += fmt::format(" emission {} vertex colors {}", int(o.emission), o.vertex_colors);
+    text += fmt::format(" emission {} vertex colors {} ignore {}", int(o.emission), o.vertex_colors,
+                        o.ignore_required);
     for (const auto* changes : {&o.shaders, &o.params})
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     if (o.frame_target.any())

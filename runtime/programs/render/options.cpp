@@ -175,6 +175,8 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
     add_choice<EmissionMode>(
         app, "--emission", o.emission, {{"auto", EmissionMode::Auto}, {"spec", EmissionMode::Spec}},
         "auto: a factor of the diffuse color where Blender before 2.80 wrote it; or spec");
+    app.add_flag("--ignore-required", o.ignore_required,
+                 "show a glTF file without the extensions that it requires and Kinora lacks");
     add_choice<bool>(app, "--vertex-colors", o.vertex_colors, {{"tint", true}, {"off", false}},
                      "tint materials that are no RSL of the scene; or off");
 }

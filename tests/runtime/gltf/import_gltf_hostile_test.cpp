@@ -9,6 +9,7 @@
 #include <random>
 
 #include "runtime/build/build_scene.h"
+#include "runtime/description/findings.h"
 #include "runtime/gltf/file/json_scan.h"
 #include "runtime/gltf/import/import.h"
 #include "tests/runtime/gltf/gltf_text.h"
@@ -154,6 +155,9 @@ TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
     refused("PK\3\4rest", ".glb", "GLTF_INVALID", "zip archive");
     refused("\x1f\x8brest", ".gltf", "GLTF_INVALID", "gzip");
     refused("{\"scenes\": {\"s\": {}}, \"nodes\": {}}", ".gltf", "GLTF_INVALID", "glTF 1.0");
+    GltfText tomorrow = whole_scene();  // nobody knows what it changes
+    tomorrow.json["extensionsRequired"] = {"EXT_tomorrow"};
+    refused(tomorrow.glb(), ".glb", "GLTF_EXTENSION_REQUIRED", "EXT_tomorrow");
     GltfText image = whole_scene();
     image.json["bufferViews"][0]["byteOffset"] = 1u << 30;
     refused(image.glb(), ".glb", "GLTF_INVALID", "image 0");
@@ -196,6 +200,26 @@ TEST(GltfHostile, ABufferThatIsAPointerIsNamed) {
     auto d = described(whole.dump(), ".gltf");
     EXPECT_FALSE(d->scene);
     EXPECT_NE(d->findings().find("Git LFS pointer"), std::string::npos) << d->findings();
+TEST(GltfHostile, RequiredExtensionsThatChangeNothingAreRead) {
+    GltfText variants = whole_scene();
+    variants.json["extensionsUsed"].push_back("KHR_materials_variants");
+    variants.json["extensionsRequired"] = {"KHR_materials_variants", "KHR_xmp_json_ld"};
+    auto d = described(variants.glb());
+    ASSERT_TRUE(d->scene) << d->findings();
+    EXPECT_EQ(d->count("GLTF_EXTENSION"), 2) << d->findings();
+    EXPECT_EQ(d->count("GLTF_EXTENSION_SHOWN"), 0) << d->findings();
+}
+
+TEST(GltfHostile, RequiredExtensionsAreIgnoredWhereThatIsAskedFor) {
+    GltfText g = whole_scene();
+    g.json["extensionsRequired"] = {"EXT_tomorrow"};
+    GltfFileOnDisk file(g.glb());
+    ImportOptions options;
+    options.ignore_required = true;
+    Diagnostics diagnostics;
+    EXPECT_TRUE(import_gltf(file.path(), options, diagnostics));
+    ASSERT_EQ(diagnostics.findings().size(), 1u);
+    EXPECT_EQ(diagnostics.findings()[0].info, &Code::GLTF_EXTENSION_SHOWN);
 }
 
 TEST(GltfHostile, FilesOutsideTheFolderAreNotRead) {

@@ -110,6 +110,66 @@ TEST(GltfMaterial, ReflectsAsTheSpecificationsFormula) {
     }
 }
 
+// KHR_materials_pbrSpecularGlossiness: F0 is the specular color, the base is the diffuse one times
+// 1 - max(specular), and alpha is (1 - glossiness)^2. Light and eye are on the normal, where
+// D = 1 / (pi alpha^2), and G is 1.
+dvec3 specular_radiance(dvec3 diffuse, dvec3 specular, double glossiness, double E) {
+    double alpha = (1 - glossiness) * (1 - glossiness), most = 0;
+    for (int k = 0; k < 3; ++k) most = std::max(most, specular[k]);
+    dvec3 result;
+    for (int k = 0; k < 3; ++k) {
+        double body = (1 - specular[k]) * diffuse[k] * (1 - most) / M_PI;
+        result[k] = E * (body + specular[k] / (4 * M_PI * alpha * alpha));
+    }
+    return result;
+}
+
+GltfText glossy_wall(json extension) {
+    GltfText g = wall({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", extension}}}});
+    g.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
+    lit(g, {{"type", "directional"}, {"intensity", 2}});
+    return g;
+}
+
+TEST(GltfMaterial, SpecularGlossinessReflectsByItsFactors) {
+    expect_near(middle(glossy_wall({{"diffuseFactor", {0.1, 0.8, 0.2, 1}},
+                                    {"specularFactor", {0.04, 0.04, 0.04}},
+                                    {"glossinessFactor", 0.3}})),
+                specular_radiance({0.1, 0.8, 0.2}, {0.04, 0.04, 0.04}, 0.3, 2), 2e-3);
+    expect_near(middle(glossy_wall({{"diffuseFactor", {0.5, 0.5, 0.5, 1}},
+                                    {"specularFactor", {0.6, 0.3, 0.1}},
+                                    {"glossinessFactor", 0.2}})),
+                specular_radiance({0.5, 0.5, 0.5}, {0.6, 0.3, 0.1}, 0.2, 2), 2e-3);
+}
+
+TEST(GltfMaterial, SpecularGlossinessMultipliesItsTextures) {
+    GltfText g;
+    // Display values of specular color; glossiness in alpha is none.
+    int map = g.texture(1, 1, {128, 255, 0, 102}, json::object());
+    int base = g.texture(1, 1, {255, 128, 255, 255}, json::object());
+    int m = g.material({{"extensions",
+                         {{"KHR_materials_pbrSpecularGlossiness",
+                           {{"diffuseTexture", {{"index", base}}},
+                            {"specularFactor", {0.5, 0.25, 1}},
+                            {"glossinessFactor", 0.5},
+                            {"specularGlossinessTexture", {{"index", map}}}}}}}});
+    g.node({{"mesh", g.square(m)}});
+    lit(g, {{"type", "directional"}, {"intensity", 2}});
+    double half = std::pow((128 / 255.0 + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
+    expect_near(middle(g), specular_radiance({1, half, 1}, {0.5 * half, 0.25, 0}, 0.5 * 0.4, 2),
+                2e-3);
+}
+
+TEST(GltfMaterial, BrokenSpecularGlossinessIsAsIfItsPartWereNotThere) {
+    for (json broken : {json(7), json{{"diffuseFactor", "red"}}, json{{"diffuseTexture", 3}},
+                        json{{"diffuseTexture", {{"index", 4294967295u}}}},
+                        json{{"specularFactor", {nullptr, 1}}}}) {
+        auto d = described(glossy_wall(broken).glb());
+        ASSERT_TRUE(d->scene) << broken;
+        EXPECT_EQ(d->scene->materials.size(), 1u);
+    }
+}
+
 TEST(GltfMaterial, EmissionIsInCandelaPerSquareMetreWithItsStrength) {
     GltfText g =
         wall({{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}}},
