@@ -604,11 +604,12 @@ def by_tool(tool, text):
 
 
 def emissions():
-    """Blender before 2.80 wrote a factor of the diffuse colour, whatever its version is called."""
+    """Blender before 2.80 wrote a factor of the diffuse colour, whatever its version is called. (Without its
+    lamps, which are read in other units.)"""
     diffuse = (.8, .5, .2)
 
     def seen(glow, tool=""):
-        text = plain(effects=effect(f"<phong><emission><color>{numbers(glow)} 1</color></emission><diffuse><color>"
+        text = plain(lights="", light_nodes="", effects=effect(f"<phong><emission><color>{numbers(glow)} 1</color></emission><diffuse><color>"
                                     f"{numbers(diffuse)} 1</color></diffuse></phong>"))
         return by_tool(tool, text) if tool else text
     light = [display(.3 * linear(v)) for v in diffuse]
@@ -623,7 +624,7 @@ def textured_emissions():
     """All of a diffuse texture's light."""
     both = ("<lambert><emission>{}</emission><diffuse><texture texture=\"map-sampler\" texcoord=\"UV\"/></diffuse>"
             "</lambert>")
-    whole = textured()
+    whole = textured(lights="", light_nodes="")
     slot = '<lambert><diffuse><texture texture="map-sampler" texcoord="UV"/></diffuse></lambert>'
     return {"light": whole.replace(slot, both.format('<texture texture="map-sampler" texcoord="UV"/>')),
             "factor": by_tool("Blender 2.72.0", whole.replace(slot, both.format("<color>1 1 1 1</color>"))),
