@@ -21,6 +21,9 @@ import written_scenes as scenes
 from convert_test import PICTURE, SAME, Convert, convert, glb_json, mesh_scene, png, validated
 from programs import render
 
+sys.path.insert(0, str(programs.SOURCE / "tests/conformance"))
+import dae  # noqa: E402
+
 SCHEMA = 'xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"'
 
 
@@ -197,6 +200,38 @@ class Attributes(GltfConvert):
         _, out = self.stays(self.folder / "colors.gltf")
         self.assertEqual(set(glb_json(out)["meshes"][0]["primitives"][0]["attributes"]),
                          {"POSITION", "NORMAL", "COLOR_0"})
+
+    def test_normals_that_a_file_lacks_are_those_of_the_picture(self):
+        """Creased ones of a .dae are written; without any, glTF is flat, and the .dae says so."""
+        scene = self.write("prism.dae", dae.plain(geometries=dae.prism(12)))
+        glb = self.converted(scene, "prism.glb")
+        self.assertIn("NORMAL", glb_json(glb)["meshes"][0]["primitives"][0]["attributes"])
+        again = self.converted(glb, "prism-again.dae")
+        pictures = [self.picture(f) for f in (scene, glb, again)]
+        for other in pictures[1:]:
+            self.assertLess(self.difference(pictures[0], other), SAME)
+        tree = json.loads(self.converted(scene, "flat.gltf").read_text())
+        for primitive in tree["meshes"][0]["primitives"]:
+            del primitive["attributes"]["NORMAL"]
+        flat = self.write("flat.gltf", json.dumps(tree))
+        shown = self.picture(flat)
+        self.assertGreater(self.difference(pictures[0], shown), 1)
+        self.assertLess(self.difference(shown, self.picture(self.converted(flat, "flat.dae"))), SAME)
+        self.assertLess(self.difference(shown, self.picture(scene, "--smooth", "0")), SAME)
+
+    def test_colors_that_tint_a_common_material_are_gltfs_own(self):
+        at = '<input semantic="TEXCOORD" source="#house-t" offset="2" set="0"/>'
+        colors = dae.source("house-c", [(k / 8, 1 - k / 8, .5) for k in range(len(dae.FACES))], "RGB")
+        mesh = dae.geometry(dae.triangles().replace(at, at + '<input semantic="COLOR" source="#house-c" offset="1"/>')
+                            ).replace("<vertices", colors + "<vertices", 1)
+        scene = self.write("tint.dae", dae.plain(geometries=mesh))
+        glb = self.converted(scene, "tint.glb")
+        self.assertIn("COLOR_0", glb_json(glb)["meshes"][0]["primitives"][0]["attributes"])
+        again = self.converted(glb, "tint-again.dae")
+        pictures = [self.picture(f) for f in (scene, glb, again)]
+        for other in pictures[1:]:
+            self.assertLess(self.difference(pictures[0], other), SAME)
+        self.assertGreater(self.difference(pictures[0], self.picture(scene, "--vertex-colors", "off")), 1)
 
     def test_tangents_of_a_map_of_normals_stay(self):
         self.image("lean.png", [(250, 128, 180)])
