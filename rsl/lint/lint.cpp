@@ -29,6 +29,7 @@ void lint(std::span<const std::unique_ptr<Shader>> shaders, const LintOptions& o
     Reporter reporter(diagnostics, ast.tokens, std::numeric_limits<int>::max());
     LintSource source{ast, shaders, options, {ast, reporter}};
     lint_names(source);
+    lint_indices(source);
     lint_loops(source);
     lint_textures(source);
     lint_lights(source);

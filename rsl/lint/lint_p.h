@@ -1,6 +1,8 @@
 // rsl/lint/lint_p.h: what the checks of rsl/lint share.
 #pragma once
 
+#include <optional>
+
 #include "rsl/check/tree_reporter.h"
 #include "rsl/lint/lint.h"
 #include "rsl/model/changes.h"
@@ -52,6 +54,10 @@ void for_each_node(const LintSource& source, OnExpr&& on_expr, OnStmt&& on_stmt)
     }
 }
 
+// The value of an expression that depends on nothing.
+std::optional<double> number_of(const Expr& expr);
+
+void lint_indices(LintSource& source);   // constant ones outside of their arrays
 void lint_names(LintSource& source);     // unused, unset and hiding ones
 void lint_loops(LintSource& source);     // that cannot end
 void lint_textures(LintSource& source);  // whose files are missing

@@ -49,7 +49,8 @@ bool cannot_end(const LintSource& source, const Expr* condition, const Stmt& bod
     });
 }
 
-// A number that depends on nothing.
+}  // namespace
+
 std::optional<double> number_of(const Expr& expr) {
     Condition needs = condition_of(expr);
     if (!needs.known || !needs.symbols.empty()) return {};
@@ -57,6 +58,8 @@ std::optional<double> number_of(const Expr& expr) {
     if (!value || value->numbers.size() != 1) return {};
     return value->numbers[0];
 }
+
+namespace {
 
 // What a step adds to the variable: "i += 2", "i = i - 1". None where it is not a constant.
 std::optional<double> added_by(const Expr& step, const Symbol* symbol) {
