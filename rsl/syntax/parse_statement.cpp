@@ -255,7 +255,16 @@ Expr* StatementParser::step(Expr* target, uint32_t at) {
 }
 
 // "( expression )" of if and while. A bare '=' in it is probably a mistake.
+// PRMan's 'if "any" (condition)': each point is a grid of its own, as for gridmin(), so that the
+// word changes nothing.
+void StatementParser::skip_grid_word() {
+    std::string_view text = cursor_.token().text;
+    if (cursor_.is(Punct::LeftParen, 1) && (text == "\"any\"" || text == "\"all\""))
+        cursor_.advance();
+}
+
 Expr* StatementParser::condition() {
+    skip_grid_word();
     uint32_t open = cursor_.position();
     errors_.expect(Punct::LeftParen, "'('");
     bool wrapped = cursor_.is(Punct::LeftParen);
@@ -305,6 +314,7 @@ Stmt* StatementParser::while_statement() {
 Stmt* StatementParser::for_statement() {
     auto* node = make<ForStmt>(SourceSpan{cursor_.token().where, cursor_.position()});
     cursor_.advance();
+    skip_grid_word();
     uint32_t open = cursor_.position();
     errors_.expect(Punct::LeftParen, "'('");
     node->init = for_initial();

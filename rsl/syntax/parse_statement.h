@@ -51,6 +51,7 @@ class StatementParser {
     Stmt* expression_statement();
     Expr* effect();
     Expr* step(Expr* target, uint32_t at);
+    void skip_grid_word();
     Expr* condition();
     void leave_header(uint32_t open);
     Stmt* if_statement();

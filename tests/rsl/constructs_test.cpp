@@ -42,6 +42,7 @@ constexpr struct {
     {"for", "control/control_for"},
     {"for (i=0,j=1;..;i+=1,j+=1)", "control/control_for"},
     {"while", "control/control_while"},
+    {"if \"any\" (..), while \"all\" (..)", "control/control_any_all"},
     {"break, continue, varying", "control/control_break"},
     {"break 2", "control/control_break_levels"},
     {"ternary", "control/control_ternary"},

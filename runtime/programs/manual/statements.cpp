@@ -8,7 +8,10 @@ namespace {
 constexpr ManualEntry kStatements[] = {
     {"if else", "if (condition) statement [else statement]",
      "Runs one of the statements. A condition is a comparison, or a float that is true where it is "
-     "not 0. Each point decides for itself.",
+     "not 0. Each point decides for itself. PRMan's if \"any\" (...) and if \"all\" (...) ask "
+     "about a "
+     "grid; here each point is a grid of its own, so they decide as without the word. So do while "
+     "and for.",
      R"(surface stripes(color dark = 0.2;) {
     if (mod(s, 0.2) < 0.1)
         Ci = dark;
