@@ -1,5 +1,6 @@
 // rsl/builtins/arrays.cpp: resizable arrays.
 #include <algorithm>
+#include <array>
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
@@ -56,6 +57,21 @@ void pop(LowerCall& c) {
     c.result = c.variables.arrays().pop(array, c.where());
 }
 
+// Whether none of so many elements differs: a loop that ends at the first that does.
+template <class Differ>
+Value all_equal(LowerCall& c, Value same, Value count, Differ&& differ) {
+    auto& b = c.b;
+    Value some = b.logical_and(same, b.lt(b.f(0), count));
+    b.begin_loop(b.logical_and(c.e.running, some),
+                 b.fault_site(c.where(), "too many elements of an array"));
+    Value k = b.loop_var(b.i(0)), left = b.loop_var(b.f(1));
+    Value next = b.iadd(k, b.i(1)), equal = b.select(differ(k), b.f(0), b.f(1));
+    b.end_loop(b.logical_and(b.lt(b.f(0), equal), b.lt(b.itof(next), count)),
+               std::array{next, equal});
+    Value last = b.loop_out(left);
+    return b.logical_and(same, b.logical_or(b.logical_not(some), b.lt(b.f(0), last)));
+}
+
 // a == b: as many elements, each equal to the other's.
 void arrayequal(LowerCall& c) {
     auto& b = c.b;
@@ -65,10 +81,14 @@ void arrayequal(LowerCall& c) {
     Value count = arrays.count(one);
     Value same = b.eq(count, arrays.count(other));
     int most = std::min(arrays.length(one), arrays.length(other));
+    auto differ = [&](Value k) {
+        return b.logical_not(
+            binary(c.e, Op::Equal, arrays.load(one, k), arrays.load(other, k)).c[0]);
+    };
+    constexpr int kUnrolled = 64;
+    if (most > kUnrolled) return c.set(c.e.flag(all_equal(c, same, count, differ)));
     for (int k = 0; k < most; ++k) {
-        Lowered equal =
-            binary(c.e, Op::Equal, arrays.load(one, b.i(k)), arrays.load(other, b.i(k)));
-        Value differs = b.logical_and(b.lt(b.f(float(k)), count), b.logical_not(equal.c[0]));
+        Value differs = b.logical_and(b.lt(b.f(float(k)), count), differ(b.i(k)));
         same = b.logical_and(same, b.logical_not(differs));
     }
     c.set(c.e.flag(same));
@@ -164,7 +184,7 @@ const Builtin kRows[] = {
     {"resize", kByNumber, lower::resize, KINORA_RSL_REF(ref::resize), kSetsLength, 0,
      "Gives a resizable array a length. New elements are 0 or \"\"."},
     {"reserve", kByNumber, lower::reserve, KINORA_RSL_REF(ref::reserve), kSetsLength, 0,
-     "Makes room for so many elements; the length stays. Other arrays have room for 64."},
+     "Makes room for so many elements, where that is a constant; the length stays."},
     {"push", "x=F[]f x=C[]c x=P[]p x=V[]v x=N[]n x=M[]m x=S[]s", lower::push,
      KINORA_RSL_REF(ref::push), kSetsLength, 0, "Appends an element to a resizable array."},
     {"pop", "f=F[] c=C[] p=P[] v=V[] n=N[] m=M[] s=S[]", lower::pop, KINORA_RSL_REF(ref::pop),

@@ -5,6 +5,7 @@
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
+#include "rsl/model/changes.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
 
@@ -21,6 +22,13 @@ struct Variable {
 
     explicit Variable(LowerCall& call) : c(call), expr(*call.call.args[1]), type(expr.type) {
         before = type.is_array() ? c.variables.array_values(expr) : std::vector<Lowered>{c.args[1]};
+    }
+    // The array, if its length is that of the answer; else -1.
+    static int resizable(LowerCall& c) {
+        const Expr& expr = *c.call.args[1];
+        if (!expr.type.is_array()) return -1;
+        int array = c.variables.array_of(*as<VariableExpr>(expr).symbol);
+        return c.variables.arrays().resizable(array) ? array : -1;
     }
     void store(std::span<const Lowered> values) {
         if (type.is_array())
@@ -41,28 +49,59 @@ char type_letter(BaseType type) {
     return "fcpvnms"[int(type)];
 }
 
+// An answer of the renderer: whether it is known, and its numbers.
+struct Answer {
+    Value known;
+    Lowered value;
+};
+Answer answer_of(LowerCall& c, QueryKind kind, BaseType type, Value element, Value length,
+                 Value anchor) {
+    auto& b = c.b;
+    std::vector<Value> row = c.services.call(
+        Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0], b.i(type_letter(type)),
+                                   element, length, anchor});
+    Answer answer{b.logical_not(b.op(jit::Op::IEq, row[0], b.i(0))), {type, {}}};
+    for (size_t i = 0; i < size_t(answer.value.size()); ++i)
+        answer.value.c[i] = type == BaseType::String ? b.bits(row[1 + i]) : row[1 + i];
+    return answer;
+}
+
+// A resizable array takes as many elements as the answer has.
+void ask_list(LowerCall& c, QueryKind kind, int array, Value anchor) {
+    auto& b = c.b;
+    auto& arrays = c.variables.arrays();
+    BaseType type = arrays.element(array);
+    // Its length is a number whatever the elements are.
+    std::vector<Value> row = c.services.call(
+        Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0], b.i(type_letter(type)),
+                                   b.i(kQueryLength), b.i(0), anchor});
+    Value known = b.logical_not(b.op(jit::Op::IEq, row[0], b.i(0)));
+    Value before = arrays.count(array), length = b.ftoi(row[1]);
+    Value running = std::exchange(c.e.running, b.logical_and(c.e.running, known));
+    arrays.fill(array, row[1], c.where(),
+                [&](Value k) { return answer_of(c, kind, type, k, length, anchor).value; });
+    c.e.running = running;
+    arrays.set_count(array, b.select(known, arrays.count(array), before));
+    c.set(c.e.flag(known));
+}
+
 // Asks the renderer; the variable keeps its value where there is no answer.
 void ask(LowerCall& c, QueryKind kind, bool of_point) {
-    Variable variable(c);
     auto& b = c.b;
     if (of_point) c.context.out.uses_rng = true;
     Value anchor = of_point ? rng_input(c.b) : b.i(0);
+    if (int list = Variable::resizable(c); list >= 0) return ask_list(c, kind, list, anchor);
+    Variable variable(c);
     bool array = variable.type.is_array();
     int length = int(variable.before.size());
-    bool text = variable.type.base == BaseType::String;
     std::vector<Lowered> values = variable.before;
     Value known = b.m(true);
     for (int k = 0; k < length; ++k) {
-        std::vector<Value> answer =
-            c.services.call(Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0],
-                                                       b.i(type_letter(variable.type.base)),
-                                                       b.i(array ? k : -1), b.i(length), anchor});
-        Value here = b.logical_not(b.op(jit::Op::IEq, answer[0], b.i(0)));
-        known = b.logical_and(known, here);
-        for (size_t i = 0; i < size_t(values[size_t(k)].size()); ++i) {
-            Value number = text ? b.bits(answer[1 + i]) : answer[1 + i];
-            values[size_t(k)].c[i] = b.select(known, number, values[size_t(k)].c[i]);
-        }
+        Answer answer =
+            answer_of(c, kind, variable.type.base, b.i(array ? k : -1), b.i(length), anchor);
+        known = b.logical_and(known, answer.known);
+        for (size_t i = 0; i < size_t(values[size_t(k)].size()); ++i)
+            values[size_t(k)].c[i] = b.select(known, answer.value.c[i], values[size_t(k)].c[i]);
     }
     variable.store(values);
     c.set(c.e.flag(known));
@@ -73,6 +112,17 @@ void query(LowerCall& c) {
     ask(c, kind, kind != QueryKind::Option && kind != QueryKind::RendererInfo);
 }
 
+// A resizable array takes all elements of a message.
+void take_list(LowerCall& c, const Messages::Message& message, int array) {
+    Type asked{c.variables.arrays().element(array), message.type.array_length};
+    if (!message.type.is_array() || !same_kind(asked, message.type)) return;
+    std::vector<Lowered> values = c.messages.values(message);
+    auto& arrays = c.variables.arrays();
+    arrays.set_count(array, arrays.limited(array, c.b.f(float(values.size())), c.where()));
+    for (size_t k = 0; k < values.size(); ++k) arrays.store(array, c.b.i(int(k)), values[k]);
+    c.set(c.b.f(1));
+}
+
 // What a layer below left in its parameter; else a parameter's value as the renderer bound it: of
 // layers above, or of the surface that a light or volume works for.
 template <ShaderKind from, QueryKind kind>
@@ -81,6 +131,7 @@ void of_layer(LowerCall& c) {
     auto& messages = c.messages.list();
     for (auto m = messages.rbegin(); name && m != messages.rend(); ++m) {
         if (m->from != from || m->name != *name) continue;
+        if (int list = Variable::resizable(c); list >= 0) return take_list(c, *m, list);
         Variable variable(c);
         if (!same_kind(variable.type, m->type)) return;
         variable.store(c.messages.values(*m));
@@ -213,14 +264,47 @@ void raylength(LowerCall& c) {
 namespace ref {
 namespace {
 
+// The renderer's answer: known, then numbers.
+template <class Real>
+std::vector<double> answer_of(RefCall<Real>& c, QueryKind kind, int element, size_t length) {
+    int letter = "fcpvnms"[int(c.call.args[1]->type.base)];
+    return c.eval.service(Service::query, {double(int(kind)), double(c.args[0].c[0].x),
+                                           double(letter), double(element), double(length), 0});
+}
+
+// Sets elements as long as all before are known; a resizable array gets the answer's length.
+template <class Real>
+void ask_list(RefCall<Real>& c, QueryKind kind) {
+    std::vector<RefValue<Real>>& items = c.arrays[1];
+    const Symbol& symbol = *as<VariableExpr>(*c.call.args[1]).symbol;
+    int room = array_capacities(*c.eval.layer->shader->ast)[symbol.id];
+    bool resizable = symbol.type.array_length <= 0 && room > 0;
+    size_t length = items.size();
+    bool known = true;
+    if (resizable) {
+        std::vector<double> answer = answer_of(c, kind, kQueryLength, 0);
+        known = at(answer, 0) != 0;
+        c.set(Dual<Real>(Real(known)));
+        if (!known) return;
+        Real wanted = std::floor(Real(at(answer, 1)));
+        if (!(wanted >= 0 && wanted <= Real(room))) ++c.eval.result.faults;
+        length = size_t(wanted > 0 ? wanted : Real(0));
+        items.resize(std::min(length, size_t(room)), RefValue<Real>(c.args[1].type));
+    }
+    for (size_t k = 0; k < items.size(); ++k) {
+        std::vector<double> answer = answer_of(c, kind, int(k), length);
+        if (!resizable) known = known && at(answer, 0) != 0;
+        for (size_t i = 0; known && i < items[k].size(); ++i)
+            items[k].c[i] = Dual<Real>(Real(at(answer, 1 + i)));
+    }
+    c.set(Dual<Real>(Real(known)));
+}
+
 // Sets args[1] where the renderer knows the answer.
 template <class Real>
 void ask(RefCall<Real>& c, QueryKind kind) {
-    const Type type = c.call.args[1]->type;
-    int letter = "fcpvnms"[int(type.base)];
-    std::vector<double> answer =
-        c.eval.service(Service::query, {double(int(kind)), double(c.args[0].c[0].x), double(letter),
-                                        type.is_array() ? 0.0 : -1.0, 1, 0});
+    if (c.call.args[1]->type.is_array()) return ask_list(c, kind);
+    std::vector<double> answer = answer_of(c, kind, -1, 1);
     bool known = at(answer, 0) != 0;
     c.set(Dual<Real>(Real(known)));
     for (size_t k = 0; known && k < c.args[1].size(); ++k)

@@ -1,4 +1,6 @@
 // rsl/builtins/spline.cpp: cubic curves through or near knots.
+#include <fmt/format.h>
+
 #include <array>
 #include <string_view>
 #include <vector>
@@ -77,12 +79,23 @@ struct Curve {
     const Basis& basis;
     std::vector<Lowered> knots;
     int pieces;
+    // Of a length that is known at run time: the knots in an array, and the pieces as a float.
+    int array = -1;
+    Value varying_pieces = jit::kNone, enough = jit::kNone;
+
+    Value piece_count(jit::Builder& b) const {
+        return array < 0 ? b.f(float(pieces)) : varying_pieces;
+    }
 };
 
 // Component j of the knot that piece `piece` begins `offset` knots from: constants are looked up,
 // others chosen by comparisons.
 Value knot_of(LowerCall& c, const Curve& curve, Value piece, int offset, size_t j) {
     constexpr int kFewPieces = 3, kMostPieces = 16;
+    if (curve.array >= 0) {
+        Value at = c.b.add(c.b.mul(piece, c.b.f(float(curve.basis.step))), c.b.f(float(offset)));
+        return c.variables.arrays().load(curve.array, c.b.ftoi(at)).c[j];
+    }
     auto knot = [&](int k) { return curve.knots[size_t(k * curve.basis.step + offset)].c[j]; };
     std::vector<float> constants(size_t(curve.pieces));
     bool constant = curve.pieces >= kFewPieces && curve.pieces <= kMostPieces;
@@ -98,8 +111,9 @@ Value knot_of(LowerCall& c, const Curve& curve, Value piece, int offset, size_t 
 // The curve at x, clamped to 0..1; NaN counts as 0.
 Lowered point_at(LowerCall& c, const Curve& curve, Value x) {
     auto& b = c.b;
-    Value scaled = b.mul(c.e.clamp(x, b.f(0), b.f(1)), b.f(float(curve.pieces)));
-    Value piece = b.min(b.floor(scaled), b.f(float(curve.pieces - 1)));
+    Value pieces = curve.piece_count(b);
+    Value scaled = b.mul(c.e.clamp(x, b.f(0), b.f(1)), pieces);
+    Value piece = b.min(b.floor(scaled), b.sub(pieces, b.f(1)));
     Value t = b.sub(scaled, piece);
     // Weights first: at t = 0 and 1 they are exact, so the curve meets its knots exactly.
     std::array<Value, 4> weight;
@@ -107,7 +121,8 @@ Lowered point_at(LowerCall& c, const Curve& curve, Value x) {
         weight[k] = b.f(curve.basis.m[0][k]);
         for (size_t r = 1; r < 4; ++r) weight[k] = c.e.fma(weight[k], t, b.f(curve.basis.m[r][k]));
     }
-    Lowered result{curve.knots[0].type, {}};
+    Lowered result{
+        curve.array < 0 ? curve.knots[0].type : c.variables.arrays().element(curve.array), {}};
     for (size_t j = 0; j < size_t(result.size()); ++j) {
         Value sum = b.f(0);
         for (size_t k = 4; k-- > 0;)
@@ -138,9 +153,40 @@ Value solve(LowerCall& c, const Curve& curve, Value wanted) {
     return b.select(at_start, b.f(0), x);
 }
 
+// The pieces of so many knots. Fewer than four give 0, and those behind the last piece are left
+// out; both are a finding at run time.
+void count_pieces(LowerCall& c, Value count, Curve& curve) {
+    auto& b = c.b;
+    Value step = b.f(float(curve.basis.step)), behind = b.sub(count, b.f(4));
+    Value more = b.floor(b.div(behind, step));
+    curve.enough = b.le(b.f(0), behind);
+    curve.varying_pieces = b.max(b.add(more, b.f(1)), b.f(1));
+    Value fits = b.logical_and(curve.enough, b.eq(b.mul(more, step), behind));
+    b.fault(b.fault_site(c.where(), fmt::format("a number of knots that a {} spline does not take",
+                                                curve.basis.name)),
+            b.and_not(c.e.running, fits));
+}
+
 }  // namespace
 
 namespace lower_spline {
+
+// The knots of an array; false where it can never hold enough.
+bool take_knots(LowerCall& c, size_t first, Curve& curve) {
+    const Expr& knots = *c.call.args[first];
+    int array = c.variables.array_of(*as<VariableExpr>(knots).symbol), count = 0;
+    if (c.variables.arrays().known_count(array, &count)) {
+        curve.knots = c.variables.array_values(knots);
+        return true;
+    }
+    if (int room = c.variables.arrays().length(array); room < 4) {
+        c.context.error(Code::RSL_SPLINE_KNOTS, c.where(), curve.basis.name, room);
+        return false;
+    }
+    curve.array = array;
+    count_pieces(c, c.variables.arrays().count(array), curve);
+    return true;
+}
 
 // spline([basis,] x, knots...) or with an array of knots.
 void spline(LowerCall& c) {
@@ -149,18 +195,22 @@ void spline(LowerCall& c) {
     const Basis* basis = find_basis(c, named, &solving);
     if (!basis) return;
     size_t first = named ? 2 : 1;
+    bool solvable = !solving || c.result_type() == BaseType::Float;
     Curve curve{*basis, {c.args.begin() + long(first), c.args.end()}, 0};
-    if (c.call.args[first]->type.is_array())
-        curve.knots = c.variables.array_values(*c.call.args[first]);
-    int count = int(curve.knots.size());
-    if (count < 4 || (count - 4) % basis->step != 0 ||
-        (solving && c.result_type() != BaseType::Float))
-        return c.context.error(Code::RSL_SPLINE_KNOTS, c.where(), basis->name, count);
-    curve.pieces = (count - 4) / basis->step + 1;
+    if (c.call.args[first]->type.is_array() && !take_knots(c, first, curve)) return;
+    if (curve.array < 0) {
+        int count = int(curve.knots.size());
+        if (count < 4 || (count - 4) % basis->step != 0 || !solvable)
+            return c.context.error(Code::RSL_SPLINE_KNOTS, c.where(), basis->name, count);
+        curve.pieces = (count - 4) / basis->step + 1;
+    } else if (!solvable) {
+        return c.context.error(Code::RSL_SPLINE_KNOTS, c.where(), basis->name, "an array of");
+    }
     Value x = c.args[first - 1].c[0];
-    if (solving) return c.set(solve(c, curve, x));
-    Lowered value = point_at(c, curve, x);
-    for (size_t j = 0; j < size_t(c.result.size()); ++j) c.result.c[j] = value.c[j];
+    Lowered value = solving ? lowered(BaseType::Float, solve(c, curve, x)) : point_at(c, curve, x);
+    for (size_t j = 0; j < size_t(c.result.size()); ++j)
+        c.result.c[j] =
+            curve.array < 0 ? value.c[j] : c.b.select(curve.enough, value.c[j], c.b.f(0));
 }
 
 }  // namespace lower_spline
@@ -232,7 +282,10 @@ void spline(RefCall<Real>& c) {
     size_t first = named ? 2 : 1;
     Number x = c.f(first - 1);
     std::vector<RefValue<Real>> knots(c.args.begin() + long(first), c.args.end());
-    if (!c.arrays[first].empty()) knots = c.arrays[first];
+    if (c.call.args[first]->type.is_array()) knots = c.arrays[first];
+    int behind = int(knots.size()) - 4;
+    if (behind < 0 || behind % basis.step != 0) ++c.eval.result.faults;
+    if (behind < 0) return;
     if (!solve) {
         RefValue<Real> value = point_at(c, basis, knots, x);
         for (size_t k = 0; k < c.result.size(); ++k) c.result.c[k] = value.c[k];

@@ -227,6 +227,10 @@ class RateWalk {
         return kUniform;
     }
 
+    // A resizable array that gets as many elements as an answer has.
+    static bool takes_answer(const CallExpr& e, size_t argument) {
+        return (e.builtin->effects & kMessage) && e.args[argument]->type.array_length == 0;
+    }
     Flow builtin_call(CallExpr& e) {
         Flow f = flow(e.channel);
         for (size_t i = 0; i < e.args.size(); ++i) f = join(f, flow(e.args[i]));
@@ -240,7 +244,11 @@ class RateWalk {
         if (effects & (kService | kMessage | kDerivative)) f.constant = false;
         if (*e.builtin->globals) f = kVaryingFlow;
         for (size_t i = 0; i < e.signature->arguments.size(); ++i)
-            if (e.signature->arguments[i].output) store_to(e.args[i], f, *e.args[i]);
+            if (e.signature->arguments[i].output) {
+                store_to(e.args[i], f, *e.args[i]);
+                if (takes_answer(e, i) && (f.varying || control_.any.varying))
+                    vary_length(e.args[i]);
+            }
         for (size_t i = e.pairs + 1; i < e.args.size(); i += 2)
             if (is_output_pair(e, i)) store_to(e.args[i], f, *e.args[i]);
         return f;
@@ -477,8 +485,7 @@ class RateWalk {
 }  // namespace
 
 void infer_rates(Ast& ast, Reporter& reporter) {
-    for (const ShaderDefinition* shader : ast.shaders)
-        RateWalk(*shader, ast, reporter).run();
+    for (const ShaderDefinition* shader : ast.shaders) RateWalk(*shader, ast, reporter).run();
 }
 
 }  // namespace kinora::rsl

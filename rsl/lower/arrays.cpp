@@ -143,6 +143,13 @@ Lowered Arrays::pop(int array, Location where) {
     return result;
 }
 
+void Arrays::fill(int array, Value count, Location where,
+                  const std::function<Lowered(Value index)>& element) {
+    Value now = limited(array, count, where);
+    for_range(b_.f(0), now, where, [&](Value k) { store(array, k, element(k)); });
+    set_count(array, now);
+}
+
 void Arrays::copy(int to, int from, Location where) {
     if (to == from) return;
     Value count = this->count(from);

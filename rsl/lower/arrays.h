@@ -1,6 +1,7 @@
 // rsl/lower/arrays.h: arrays: as slots, as memory, or as inputs that are only read.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ class Arrays {
     void resize(int array, Value count, Location where);  // new elements are 0
     void push(int array, const Lowered& value, Location where);
     Lowered pop(int array, Location where);
+    // So many elements, and their values.
+    void fill(int array, Value count, Location where,
+              const std::function<Lowered(Value index)>& element);
     // All elements of another array; a resizable one gets its length too.
     void copy(int to, int from, Location where);
 

@@ -70,7 +70,10 @@ Lowered Calls::lower(const CallExpr& e) {
     for (size_t k = 0; k < e.args.size(); ++k) {
         const Symbol& parameter = *f.parameters[k];
         if (arrays[k] >= 0) {
+            int given = variables_.array_of(*as<VariableExpr>(*e.args[k]).symbol);
             variables_.lend_array(parameter, -1);
+            if (arrays[k] != given && arrays_.resizable(arrays[k]))
+                variables_.give_back_copy(parameter, arrays[k]);
         } else if (variables_.is_lent(parameter)) {
             variables_.lend_slot(parameter, -1);
         } else {
@@ -97,8 +100,7 @@ int Calls::array_argument(const CallExpr& e, size_t k) {
     int array = variables_.array_of(*symbol(&argument));
     if (parameter.output || !written) return array;
     if (arrays_.resizable(array) || variables_.room_for(parameter) > 0) {
-        int copy =
-            variables_.make_array(parameter, {parameter.type.base, parameter.type.array_length});
+        int copy = variables_.take_copy(parameter);
         arrays_.copy(copy, array, argument.span.where);
         return copy;
     }

@@ -2,6 +2,7 @@
 #include "rsl/lower/variables.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "rsl/lower/values.h"
 #include "rsl/model/changes.h"
@@ -11,6 +12,7 @@ namespace kinora::rsl {
 void Variables::enter_layer() {
     symbol_base_ = slots_.add_dead(context_.ast().symbol_count);
     state_.array_of.assign(context_.ast().symbol_count, -1);
+    state_.copy_of.assign(context_.ast().symbol_count, -1);
     state_.lent_slot.assign(context_.ast().symbol_count, -1);
     in_memory_ = memory_arrays(context_.ast());
     capacities_ = array_capacities(context_.ast());
@@ -19,6 +21,7 @@ void Variables::enter_layer() {
 Variables::State Variables::enter_function() {
     State outer = state_;
     std::fill(state_.array_of.begin(), state_.array_of.end(), -1);
+    std::fill(state_.copy_of.begin(), state_.copy_of.end(), -1);
     std::fill(state_.lent_slot.begin(), state_.lent_slot.end(), -1);
     return outer;
 }
@@ -105,6 +108,16 @@ int Variables::make_array(const Symbol& symbol, Type type) {
     return state_.array_of[symbol.id] = resizable
                                             ? arrays_.add_resizable(symbol, type.base, capacity)
                                             : arrays_.add(symbol, type, in_memory_[symbol.id]);
+}
+
+int Variables::take_copy(const Symbol& parameter) {
+    int free = std::exchange(state_.copy_of[parameter.id], -1);
+    return free >= 0 ? free : make_array(parameter, parameter.type);
+}
+
+void Variables::give_back_copy(const Symbol& parameter, int array) {
+    slots_.kill(arrays_.count_slot(array));
+    state_.copy_of[parameter.id] = array;
 }
 
 void Variables::fill_array(int array, const Expr* initial) {

@@ -62,6 +62,10 @@ class Variables {
     void assign_array(const Symbol& target, const Expr& value);
     int known_array(const Symbol& symbol) const { return state_.array_of[symbol.id]; }  // or -1
     int make_array(const Symbol& symbol, Type type);
+    // Room for a resizable argument that a function changes for itself: given back behind the
+    // call, and taken again by the next.
+    int take_copy(const Symbol& parameter);
+    void give_back_copy(const Symbol& parameter, int array);
     std::vector<Lowered> array_values(const Expr& array);  // all elements
     void set_array(const Expr& array, std::span<const Lowered> values);
 
@@ -72,6 +76,7 @@ class Variables {
 
     struct State {
         std::vector<int> array_of;   // by Symbol::id, -1: none yet
+        std::vector<int> copy_of;    // by Symbol::id, -1: none that is free
         std::vector<int> lent_slot;  // by Symbol::id: an output parameter's argument; -1: its own
     };
     State enter_function();

@@ -3,7 +3,9 @@
 #include "rsl/model/changes.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "jit/ir/kernel.h"
 #include "rsl/model/builtin.h"
 #include "rsl/model/pairs.h"
 #include "rsl/model/shader.h"
@@ -103,8 +105,9 @@ namespace {
 // Walks everything of an Ast once, looking at how arrays are indexed and passed on.
 class ArrayWalk {
   public:
-    explicit ArrayWalk(const Ast& ast) : marks(ast.symbol_count), capacities(ast.symbol_count) {
-        for (const Function* function : ast.functions) visit(function->body);
+    explicit ArrayWalk(const Ast& ast)
+        : marks(ast.symbol_count), capacities(ast.symbol_count), unlimited_(ast.symbol_count) {
+        for (const Function* function : ast.functions) visit(*function);
         for (const ShaderDefinition* shader : ast.shaders) {
             for (const Symbol* parameter : shader->parameters)
                 if (parameter->initial) visit(parameter->initial);
@@ -126,14 +129,9 @@ class ArrayWalk {
 
     // Arrays that are handed on have room for what either side needs.
     void spread_capacities() {
-        for (bool again = true; again;) {
-            again = false;
-            for (auto [a, b] : passed) {
-                int most = std::max(capacities[a->id], capacities[b->id]);
-                again = again || capacities[a->id] != most || capacities[b->id] != most;
-                capacities[a->id] = capacities[b->id] = most;
-            }
-        }
+        spread(capacities);
+        spread(unlimited_);
+        share_memory();
     }
 
     std::vector<uint8_t> marks;
@@ -142,6 +140,21 @@ class ArrayWalk {
   private:
     static constexpr int kLongest = 64;    // elements kept as values
     static constexpr int kCustomary = 64;  // elements of a resizable array that says nothing
+    // docs/decisions.md#strings-and-arrays: what all arrays share whose lengths are known at run
+    // time alone, the widest of them, and what is enough for any, for 16 points.
+    static constexpr int kSharedBytes = 2 << 20, kWidestBytes = 1 << 20, kEnough = 4096;
+
+    template <class T>
+    void spread(std::vector<T>& values) {
+        for (bool again = true; again;) {
+            again = false;
+            for (auto [a, b] : passed) {
+                T most = std::max(values[a->id], values[b->id]);
+                again = again || values[a->id] != most || values[b->id] != most;
+                values[a->id] = values[b->id] = most;
+            }
+        }
+    }
 
     void need(const Symbol* symbol, double count) {
         int& room = capacities[symbol->id];
@@ -150,10 +163,33 @@ class ArrayWalk {
     void need(const Symbol* symbol, const Expr* count) {
         auto* number = as_if<NumberExpr>(count);
         need(symbol, number ? number->value : kCustomary);
+        if (!number) grows(symbol);
+    }
+    // Its length is known at run time alone.
+    void grows(const Symbol* symbol) {
+        if (symbol->length && symbol->length->kind == ExprKind::Number) return;
+        unlimited_[symbol->id] = 1;
+    }
+    // As many elements for each as fit, so that arrays that grow together end together. Below a
+    // function that calls itself there are as many copies of each as it may nest: those stay small.
+    void share_memory() {
+        if (recursive_) return;
+        int64_t all = 0, widest = 1;
+        for (const Symbol* symbol : resizable_) {
+            if (!unlimited_[symbol->id]) continue;
+            int64_t bytes = int64_t(component_count(symbol->type.base)) * 4 * jit::kMaxLanes;
+            all += bytes;
+            widest = std::max(widest, bytes);
+        }
+        int64_t count = std::min(
+            {kSharedBytes / std::max<int64_t>(all, 1), kWidestBytes / widest, int64_t(kEnough)});
+        for (size_t id = 0; id < capacities.size(); ++id)
+            if (unlimited_[id]) capacities[id] = std::max(capacities[id], int(count));
     }
     // A resizable array: at least as long as its initial value.
     void declared(const Symbol* symbol) {
         marks[symbol->id] = 1;
+        resizable_.push_back(symbol);
         if (symbol->length) need(symbol, symbol->length);
         if (auto* literal = as_if<ArrayLiteralExpr>(symbol->initial))
             need(symbol, double(literal->items.size()));
@@ -183,17 +219,41 @@ class ArrayWalk {
             need(array->symbol, call.args[1]);
         else
             need(array->symbol, kCustomary);
+        if (call.name == "push" && repeats_) grows(array->symbol);
+    }
+
+    // Questions whose answers decide the length.
+    void answered(const CallExpr& call) {
+        for (const Expr* argument : call.args)
+            if (auto* array = as_if<VariableExpr>(argument); array && array->symbol->resizable) {
+                need(array->symbol, kCustomary);
+                grows(array->symbol);
+            }
+    }
+
+    // What stands in it may run any number of times.
+    void visit(const Function& function) {
+        bool outside = std::exchange(repeats_, true);
+        recursive_ = recursive_ || function.recursive;
+        for (const Symbol* parameter : function.parameters)
+            if (parameter->type.array_length == 0 && parameter->assigned && !parameter->output)
+                resizable_.push_back(parameter);  // a copy of the argument
+        visit(function.body);
+        repeats_ = outside;
     }
 
     void visit(const Stmt* stmt) {
+        bool outside = repeats_;
+        repeats_ = repeats_ || is_loop(*stmt);
         for_each_part(
             *stmt, [&](const Expr* expr) { visit(expr); }, [&](const Stmt* part) { visit(part); });
+        repeats_ = outside;
         if (auto* declare = as_if<DeclareStmt>(stmt))
             for (const Symbol* symbol : declare->symbols) {
                 if (symbol->type.array_length > kLongest) marks[symbol->id] = 1;
                 if (symbol->resizable) declared(symbol);
             }
-        if (auto* nested = as_if<FunctionStmt>(stmt)) visit(nested->function->body);
+        if (auto* nested = as_if<FunctionStmt>(stmt)) visit(*nested->function);
     }
 
     void visit(const Expr* expr) {
@@ -205,6 +265,7 @@ class ArrayWalk {
         if (auto* assign = as_if<AssignExpr>(expr)) assigned(assign->target, assign->value);
         auto* call = as_if<CallExpr>(expr);
         if (call && call->builtin && (call->builtin->effects & kSetsLength)) resized(*call);
+        if (call && call->builtin && (call->builtin->effects & kMessage)) answered(*call);
         if (!call || !call->function) return;
         for (size_t i = 0; i < call->args.size(); ++i) {
             auto* array = as_if<VariableExpr>(call->args[i]);
@@ -213,7 +274,16 @@ class ArrayWalk {
         }
     }
 
+    static bool is_loop(const Stmt& stmt) {
+        return stmt.kind == StmtKind::While || stmt.kind == StmtKind::For ||
+               stmt.kind == StmtKind::Illuminance || stmt.kind == StmtKind::Gather;
+    }
+
     std::vector<std::pair<const Symbol*, const Symbol*>> passed;
+    std::vector<const Symbol*> resizable_;
+    std::vector<uint8_t> unlimited_;  // by Symbol::id
+    bool repeats_ = false;            // a loop or function around
+    bool recursive_ = false;
 };
 
 }  // namespace

@@ -59,6 +59,8 @@ enum class QueryKind : int32_t {
     Opposite,
     ShaderName  // the name asked for is the shader's kind
 };
+// In place of an element: how many the array has that is asked about, as the first number.
+inline constexpr int32_t kQueryLength = -2;
 enum class PhotonKind : int32_t { Map, Caustic, Subsurface };
 
 // The process-wide, thread-safe table of strings that shaders handle: id <-> text. Id 0 is "".

@@ -24,8 +24,9 @@ char letter_of(rsl::BaseType type) {
 bool fits(const Question& question, rsl::Type type) {
     Question own{{}, letter_of(type.base)};
     bool same = question.type == own.type || (question.triple() && own.triple());
-    return same && (type.is_array() ? question.element >= 0 && question.length == type.array_length
-                                    : question.element < 0);
+    bool array = question.element == rsl::kQueryLength ||
+                 (question.element >= 0 && question.length == type.array_length);
+    return same && (type.is_array() ? array : question.element == -1);
 }
 
 // A point, vector or normal in "current" space.
@@ -228,6 +229,10 @@ bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::Shade
         for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
             if (parameter.name != question.name) continue;
             if (!fits(question, parameter.type)) return false;
+            if (question.element == rsl::kQueryLength) {
+                answer[0] = float(parameter.type.array_length);
+                return true;
+            }
             bool varying;
             if (from_vertices(asker, look, uint32_t(l), question, answer, &varying)) return true;
             if (varying) return false;

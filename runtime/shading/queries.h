@@ -30,7 +30,7 @@ struct Asker {
 struct Question {
     std::string_view name;
     char type = 'f';
-    int element = -1;  // of an array of `length`; -1: no array
+    int element = -1;  // of an array of `length`; -1: no array; rsl::kQueryLength: how long it is
     int length = 1;
     bool triple() const { return type == 'c' || type == 'p' || type == 'v' || type == 'n'; }
     int components() const { return triple() ? 3 : type == 'm' ? 16 : 1; }

@@ -279,24 +279,26 @@ std::string_view plain_name(const Question& question) {
     return name;
 }
 
-// Several numbers are read as an array no longer than they are, three as a triple, sixteen as a
-// matrix.
+// Several numbers are read as an array no longer than they are, of numbers, triples or matrices;
+// three as a triple, sixteen as a matrix.
 bool read(const Fact& fact, const Question& question, Answer& answer) {
     if (fact.is_text) {
-        if (question.type != 's' || question.element >= 0) return false;
+        if (question.type != 's' || question.element != -1) return false;
         answer[0] = jit::float_of(rsl::intern(fact.text));
         return true;
     }
-    bool array = question.element >= 0;
-    if (question.type == 'f' && array) {
-        if (question.length > fact.count) return false;
-        answer[0] = fact.number(question.element);
-        return true;
+    int width = question.components();
+    if (question.type == 's') return false;
+    if (question.element == rsl::kQueryLength) {
+        answer[0] = float(fact.count / width);
+        return fact.count % width == 0;
     }
-    int wanted = question.components();
-    if (array || question.type == 's' || fact.count != wanted) return false;
-    for (int k = 0; k < wanted; ++k) answer[size_t(k)] = fact.number(k);
-    return true;
+    bool array = question.element >= 0;
+    int first = array ? question.element * width : 0;
+    bool fits = array ? question.length <= fact.count / width && first + width <= fact.count
+                      : fact.count == width;
+    for (int k = 0; fits && k < width; ++k) answer[size_t(k)] = fact.number(first + k);
+    return fits;
 }
 
 // "user:NAME" of the node, else of the nodes above it.

@@ -20,6 +20,19 @@ std::string surface(const std::string& body, const std::string& parameters = "")
     return "surface s(" + parameters + ") { Oi = 1; Ci = 0; " + body + " }";
 }
 
+// ---- lists
+
+TEST(Lists, TakeTheLengthOfTheAnswer) {
+    SceneText scene = floor_scene(
+        "surface s(float steps[3] = {1, 2, 4}; color pair[2] = {(1, 2, 3), (4, 5, 6)};) {"
+        " Oi = 1; float l[], none[]; color c[]; push(none, 4); push(l, 9);"
+        " float k = surface(\"steps\", l) + 10 * surface(concat(\"pa\", \"ir\"), c)"
+        " + 100 * attribute(\"user:nothing\", none);"
+        " Ci = color(k, arraylength(l) + 10 * arraylength(c) + 100 * arraylength(none),"
+        " l[2] + comp(c[1], 1)); }");
+    EXPECT_EQ(middle(scene), vec3(11, 123, 9));
+}
+
 // ---- messages
 
 const char* kLamp =

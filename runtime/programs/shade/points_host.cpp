@@ -64,6 +64,10 @@ int32_t integer(const jit::ServiceCall& call, int row, int lane) {
 std::vector<float> answer(const PointsValue& value, char type, int element, int length) {
     bool is_text = type == 's';
     size_t width = is_text || type == 'f' ? 1 : type == 'm' ? 16 : 3;
+    bool lengths =
+        is_text == value.is_text() && value.size() % width == 0 && !value.lengths.empty();
+    if (element == rsl::kQueryLength)
+        return lengths ? std::vector<float>{float(value.size() / width)} : std::vector<float>();
     size_t elements = element < 0 ? 1 : size_t(std::max(length, 1));
     size_t at = element < 0 ? 0 : size_t(element);
     if (is_text != value.is_text() || value.size() != elements * width || at >= elements) return {};

@@ -102,23 +102,56 @@ TEST(ResizableArrays, AreChangedThroughOutputParameters) {
     for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], n > 9 ? 52 : 21) << n;
 }
 
-// Room is for 64 elements, or what a number asks for; beyond, nothing is stored.
+// Room is for 4096 elements where nothing shares it, or what a number asks for; beyond, nothing is
+// stored.
 TEST(ResizableArrays, AreBoundedWithAFault) {
     bool faults = false;
     auto fill = [](const char* reserve) {
         return std::string("surface t() { float a[], k; ") + reserve +
-               " for (k = 0; k < 60 + s; k += 1) push(a, k); Ci = arraylength(a); }";
+               " for (k = 0; k < 4090 + s; k += 1) push(a, k);"
+               " Ci = arraylength(a) + 1e-4 * a[arraylength(a) - 1]; }";
     };
+    auto length = [](int n) { return float(n) + 1e-4f * float(n - 1); };
     auto got = values_of(fill(""), "Ci.r", &faults);
     EXPECT_TRUE(faults);
-    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], std::min(60 + n, 64)) << n;
-    got = values_of(fill("reserve(a, 100);"), "Ci.r", &faults);
+    for (int n = 0; n < kObjectPoints; ++n)
+        EXPECT_EQ(got[size_t(n)], length(std::min(4090 + n, 4096))) << n;
+    got = values_of(fill("reserve(a, 5000);"), "Ci.r", &faults);
     EXPECT_FALSE(faults);
-    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], 60 + n) << n;
-    got = values_of("surface t() { float n = s * 5, a[n]; reserve(a, 90); Ci = arraylength(a); }",
+    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], length(4090 + n)) << n;
+    got = values_of("surface t() { float n = s * 5, a[n]; reserve(a, 9); Ci = arraylength(a); }",
                     "Ci.r", &faults);
-    EXPECT_TRUE(faults);
-    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], std::min(5 * n, 90)) << n;
+    EXPECT_FALSE(faults);
+    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], 5 * n) << n;
+    got = values_of("surface t() { float a[]; push(a, s); Ci = capacity(a); }", "Ci.r", &faults);
+    EXPECT_EQ(got[0], 64);
+}
+
+// Many of them share 2 MiB for 16 points, and have room for 64 elements at least.
+TEST(ResizableArrays, ShareTheirMemory) {
+    auto room_of = [](int arrays, const char* type) {
+        std::string text = "surface t(float n = 100;) { float k;";
+        for (int a = 0; a < arrays; ++a)
+            text += fmt::format(" {} a{}[]; resize(a{}, n);", type, a, a);
+        return values_of(text + " Ci = capacity(a0); }", "Ci.r")[0];
+    };
+    EXPECT_EQ(room_of(1, "float"), 4096);
+    EXPECT_EQ(room_of(8, "float"), (2 << 20) / (8 * 64));
+    EXPECT_EQ(room_of(4, "color"), (2 << 20) / (4 * 3 * 64));
+    EXPECT_EQ(room_of(1, "matrix"), (1 << 20) / (16 * 64));
+    EXPECT_EQ(room_of(200, "color"), 64);
+}
+
+// f(f(..)) has two copies at once; the next call takes one of them again.
+TEST(ResizableArrays, AreCopiedForEachCall) {
+    auto got = values_of(
+        "float f(float a[]; float x) { push(a, x); float k, sum = 0;"
+        " for (k = 0; k < arraylength(a); k += 1) sum += a[k]; return sum; }"
+        "surface t() { float a[]; push(a, s);"
+        " Ci = f(a, f(a, 10)) + f(a, 100) + 1000 * arraylength(a); if (s > 3) Ci += f(a, 1); }",
+        "Ci.r");
+    for (int n = 0; n < kObjectPoints; ++n)
+        EXPECT_EQ(got[size_t(n)], 1110 + 3 * n + (n > 3 ? n + 1 : 0)) << n;
 }
 
 TEST(ResizableArrays, ReportWhatLiesOutside) {
@@ -333,11 +366,12 @@ TEST(Classes, AreLitByWhatARayNeeds) {
     constexpr struct {
         const char* methods;  // d, g, l, s: diffuselighting, specularlighting, lighting, surface
         float camera, specular, diffuse;
-    } kRows[] = {{"dg", 12, 12, 1},   {"l", 3, 3, 3},     {"s", 4, 4, 4},
-                 {"dgl", 3, 12, 1},   {"dls", 3, 3, 1},   {"dgs", 12, 12, 1},
-                 {"ls", 3, 3, 3},     {"dgls", 3, 12, 1}, {"ds", 4, 4, 1}};
+    } kRows[] = {{"dg", 12, 12, 1}, {"l", 3, 3, 3},     {"s", 4, 4, 4},
+                 {"dgl", 3, 12, 1}, {"dls", 3, 3, 1},   {"dgs", 12, 12, 1},
+                 {"ls", 3, 3, 3},   {"dgls", 3, 12, 1}, {"ds", 4, 4, 1}};
     for (const auto& row : kRows) {
-        std::string source = "class t() { float n = 0; float add(float k) { n = n * 10 + k; return n; }";
+        std::string source =
+            "class t() { float n = 0; float add(float k) { n = n * 10 + k; return n; }";
         for (char c : std::string(row.methods)) {
             std::string name = c == 'd'   ? "diffuselighting"
                                : c == 'g' ? "specularlighting"
@@ -382,7 +416,9 @@ TEST(Classes, MakeHolesUpToAThreshold) {
             for (int n = 0; n < kObjectPoints; ++n) {
                 float opacity = float(n) / 20;
                 bool hole = opacity <= threshold;
-                EXPECT_FLOAT_EQ(got["Oi.r"][size_t(n)], hole ? 0 : colors ? opacity + 0.5f : opacity)
+                EXPECT_FLOAT_EQ(got["Oi.r"][size_t(n)], hole     ? 0
+                                                        : colors ? opacity + 0.5f
+                                                                 : opacity)
                     << n << " " << threshold;
                 if (colors) {
                     EXPECT_EQ(got["Ci.r"][size_t(n)], hole ? 0 : 3) << n;
