@@ -32,6 +32,15 @@ std::vector<ShaderParameter> shader_parameters(const ShaderDefinition& definitio
     return parameters;
 }
 
+std::vector<NamedOutput> named_outputs(const ShaderDefinition& definition) {
+    std::vector<NamedOutput> outputs;
+    for (const NamedWrite& write : definition.named_writes)
+        if (write.call->function)
+            outputs.push_back(
+                {write.call->function->parameters[1]->type.base, std::string(write.pattern)});
+    return outputs;
+}
+
 std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& ast,
                                                   Reporter& reporter,
                                                   const ParseRecovery& recovery) {
@@ -45,6 +54,7 @@ std::vector<std::unique_ptr<Shader>> make_shaders(const std::shared_ptr<Ast>& as
         shader->definition = definition;
         find_usage(*shader, *ast, reporter, recovery, reported);
         if (reporter.errors() == 0) shader->parameters = shader_parameters(*definition);
+        if (reporter.errors() == 0) shader->named_outputs = named_outputs(*definition);
         shaders.push_back(std::move(shader));
     }
     return shaders;
@@ -103,10 +113,10 @@ std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>
                                                       Reporter& reporter,
                                                       const CompileOptions& options,
                                                       const ParseRecovery& recovery,
-                                                      std::vector<Unit> units,
-                                                      ClassForm form) {
+                                                      std::vector<Unit> units, ClassForm form) {
     if (form == ClassForm::OnlyDisplacement)
-        for (ShaderDefinition* shader : ast->shaders) shader->only_displaces = can_displace(*shader);
+        for (ShaderDefinition* shader : ast->shaders)
+            shader->only_displaces = can_displace(*shader);
     bind_integrators(*ast, reporter, units);
     bind_sample_pairs(*ast, reporter, units);
     if (!expand_objects(*ast, reporter, std::move(units), options.counts)) return {};
@@ -133,8 +143,7 @@ std::vector<std::unique_ptr<Shader>> compile(const ShaderSource& source,
     auto displacements = compile_as(ClassForm::OnlyDisplacement, source, options, unheard);
     for (auto& shader : shaders)
         for (auto& displacement : displacements)
-            if (displacement && shader->definition->displaces &&
-                shader->name == displacement->name)
+            if (displacement && shader->definition->displaces && shader->name == displacement->name)
                 shader->displacement = std::move(displacement);
     return shaders;
 }

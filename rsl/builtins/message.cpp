@@ -140,6 +140,29 @@ void of_layer(LowerCall& c) {
     ask(c, kind, true);
 }
 
+// A vertex input that no parameter declares (Shader::vertex_requests).
+void vertexvalue(LowerCall& c) {
+    auto& b = c.b;
+    const std::string* name = c.e.constant_text(c.args[0].c[0]);
+    bool reads = c.args.size() > 1;
+    BaseType type = reads ? c.call.args[1]->type.base : BaseType::Float;
+    if (reads && c.call.args[1]->type.is_array()) return c.set(b.f(0));
+    Value known = b.m(false);
+    Lowered value = reads ? c.args[1] : lowered(BaseType::Float, b.f(0));
+    for (const ParamBinding& bound : c.context.layer->params) {
+        std::optional<std::string_view> input = requested_input(bound.name, type);
+        if (!input || (name && *name != *input)) continue;
+        Value meant = name ? b.m(true) : b.op(jit::Op::IEq, c.args[0].c[0], b.i(intern(*input)));
+        known = b.logical_or(known, meant);
+        if (!reads) continue;
+        Lowered given = c.variables.vertex_input(bound, type);
+        for (size_t k = 0; k < size_t(value.size()); ++k)
+            value.c[k] = b.select(meant, given.c[k], value.c[k]);
+    }
+    if (reads) c.set_output(1, value);
+    c.set(c.e.flag(known));
+}
+
 // A parameter of the light that the illuminance loop is at.
 void lightsource(LowerCall& c) {
     const std::string* name = c.text(0);
@@ -400,6 +423,21 @@ void lightsource(RefCall<Real>& c) {
 }
 
 template <class Real>
+void vertexvalue(RefCall<Real>& c) {
+    bool reads = c.args.size() > 1;
+    Symbol symbol;
+    if (reads) symbol.type = c.call.args[1]->type;
+    if (symbol.type.is_array()) return c.set(Dual<Real>(Real(0)));
+    if (!reads) symbol.type = {BaseType::Float, -1};
+    std::string name = vertex_request_name(symbol.type.base, c.text(0));
+    symbol.name = name;
+    bool known = false;
+    for (const ParamBinding& bound : c.eval.layer->params) known = known || bound.name == name;
+    if (known && reads) c.args[1] = c.eval.parameter(symbol, -1);
+    c.set(Dual<Real>(Real(known)));
+}
+
+template <class Real>
 void lighthandle(RefCall<Real>& c) {
     if (c.eval.light) c.set(Dual<Real>(Real(-1 - c.eval.light_number)));
 }
@@ -493,6 +531,10 @@ const Builtin kRows[] = {
     {"raykind", "f=", lower::raykind, KINORA_RSL_REF(ref::raykind),
      kMessage | kVaryingResult | kForHeaders, 0,
      "1 behind the ray of a mirror or lens, 2 for indirect diffuse light, else 0."},
+    {"vertexvalue",
+     "f=sF f=sC f=sP f=sV f=sN f=sM f=sS f=sF[] f=sC[] f=sP[] f=sV[] f=sN[] f=sM[] f=sS[] f=s",
+     lower::vertexvalue, KINORA_RSL_REF(ref::vertexvalue), kMessage | kVaryingResult | kForHeaders,
+     0, "What readprimvar() of a name that the shader does not have becomes."},
     {"nullcall", "f=s", lower::nullcall, KINORA_RSL_REF(ref::nullcall), kService | kForHeaders, 0,
      "What a call through a shader that is null becomes: reports the method's name and gives 0."},
     {"shadername", "s= s=s", lower::shadername, KINORA_RSL_REF(ref::shadername),

@@ -34,8 +34,10 @@ void NamedOutputs::bind(Expr*& slot, CallExpr& e) {
     const auto* name = e.args.size() == 2 ? as_if<StringExpr>(e.args[0]) : nullptr;
     Type type = e.args.size() == 2 ? e.args[1]->type : Type{};
     if (!name || type.is_array() || type.base == BaseType::Void) {
-        reporter_.report(Code::RSL_ARGUMENT_FORM, e.span, e.name,
-                         "a constant string and one value or variable");
+        Finding& finding = reporter_.report(Code::RSL_ARGUMENT_FORM, e.span, e.name,
+                                            "a constant string and one value or variable");
+        if (!name && e.args.size() == 2 && ast_.shaders.size() > 1)
+            finding.help = "names made at run time need a source of one shader";
         return;
     }
     if (type.base == BaseType::Invalid) return;

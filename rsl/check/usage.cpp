@@ -1,9 +1,9 @@
 // rsl/check/usage.cpp: globals, statements and built-ins against the shader's kind.
 #include "rsl/check/usage.h"
 
-#include <utility>
-
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "rsl/model/builtin.h"
 #include "rsl/model/pairs.h"
@@ -197,10 +197,19 @@ class UsageWalk {
         }
         if (e.builtin->effects & kLights) lights(&e, e.span, fmt::format("'{}'", e.name));
         read_names(e.builtin->globals);
+        if (e.name == "vertexvalue") request_input(e);
         for (size_t i = 0; i < e.args.size(); ++i) {
             bool fixed = i < e.signature->arguments.size();
             argument(e.args[i], fixed ? e.signature->arguments[i].output : is_output_pair(e, i));
         }
+    }
+    void request_input(const CallExpr& e) {
+        BaseType type = e.args.size() > 1 ? e.args[1]->type.base : BaseType::Float;
+        const auto* name = as_if<StringExpr>(e.args[0]);
+        VertexRequest request{type, name ? std::string(name->value) : ""};
+        auto& requests = shader_.vertex_requests;
+        if (std::find(requests.begin(), requests.end(), request) == requests.end())
+            requests.push_back(std::move(request));
     }
     void reach(Function& f) {
         if (!seen_.insert(&f).second) return;

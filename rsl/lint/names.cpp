@@ -39,7 +39,8 @@ class NameWalk {
         }
     }
     void function(const Function& f) {
-        if (!f.called && source_.is_own(f.span) && !is_method(f))
+        bool made = f.name.find('@') != std::string_view::npos;  // by rsl/objects
+        if (!f.called && !made && source_.is_own(f.span) && !is_method(f))
             source_.reporter.report(Code::RSL_UNUSED_FUNCTION, f.span, f.name);
         const Function* outer = std::exchange(function_, &f);
         auto loops = std::exchange(loops_, {});

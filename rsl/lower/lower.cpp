@@ -46,6 +46,7 @@ class LayerWriter {
     void enter();  // slots for the symbols of the context's layer
     void first_values(const Shader& shader);
     void leave_messages(const Shader& shader);
+    void leave_named_outputs(const Shader& shader);
 
     LoweringContext& context_;
     SampleSeeds& seeds_;
@@ -124,6 +125,20 @@ void LayerWriter::leave_messages(const Shader& shader) {
             message.array = variables_.array_of(*parameter.symbol);
         }
         messages_.add(std::move(message));
+    }
+    leave_named_outputs(shader);
+}
+
+// Those that are wanted, from the tables of what the shader named at run time.
+void LayerWriter::leave_named_outputs(const Shader& shader) {
+    for (const std::string& name : context_.options.aovs) {
+        auto declared = [&](const ShaderParameter& p) { return p.name == name; };
+        std::optional<BaseType> type = named_output(shader, name);
+        if (!type || std::ranges::any_of(shader.parameters, declared)) continue;
+        for (const NamedTable& table : shader.definition->named_tables)
+            if (table.values->type.base == *type)
+                messages_.add(
+                    {shader.kind, name, {*type, -1}, variables_.find_named(table, name), -1});
     }
 }
 

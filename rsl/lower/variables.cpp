@@ -80,12 +80,31 @@ void Variables::assign_array(const Symbol& target, const Expr& value) {
     if (arrays_.resizable(to)) arrays_.set_count(to, b_.f(float(values.size())));
 }
 
+Lowered Variables::find_named(const NamedTable& table, const std::string& name) {
+    int names = array_of(*table.names), values = array_of(*table.values);
+    Value count = arrays_.count(names), wanted = b_.i(intern(name));
+    b_.begin_loop(b_.lt(b_.f(0), count),
+                  b_.fault_site(table.names->span.where, "too many outputs of a shader"));
+    Value turn = b_.loop_var(b_.i(0));
+    Lowered found = zero(e_, arrays_.element(values));
+    for (size_t c = 0; c < size_t(found.size()); ++c) found.c[c] = b_.loop_var(found.c[c]);
+    std::vector<Value> next{b_.iadd(turn, b_.i(1))};
+    Lowered kept = arrays_.load(values, turn);
+    Value here = b_.op(jit::Op::IEq, arrays_.load(names, turn).c[0], wanted);
+    for (size_t c = 0; c < size_t(found.size()); ++c)
+        next.push_back(b_.select(here, kept.c[c], found.c[c]));
+    b_.end_loop(b_.lt(b_.itof(next[0]), count), next);
+    for (size_t c = 0; c < size_t(found.size()); ++c) found.c[c] = b_.loop_out(found.c[c]);
+    return found;
+}
+
 // Locals end with their block, so that no loop carries them and no If merges them.
 void Variables::end_scope(std::span<Stmt* const> body) {
     for (const Stmt* stmt : body) {
         auto* declare = as_if<DeclareStmt>(stmt);
         if (!declare) continue;
         for (const Symbol* symbol : declare->symbols) {
+            if (symbol->kept) continue;
             int& array = state_.array_of[symbol->id];
             if (!symbol->type.is_array()) {
                 slots_.kill(slot_of(*symbol));

@@ -44,6 +44,10 @@ class Variables {
 
     Lowered read(const Symbol& symbol);
     Lowered parameter(const Symbol& symbol);  // a shader parameter's first value
+    // A vertex input that the layer reads and no parameter of it declares.
+    Lowered vertex_input(const ParamBinding& bound, BaseType type) {
+        return parameters_.bound_value(bound, bound.name, {type, -1}, 0);
+    }
     void declare(const Symbol& symbol);
     void end_scope(std::span<Stmt* const> body);
     int slot_of(const Symbol& symbol) const;
@@ -54,6 +58,8 @@ class Variables {
 
     int array_of(const Symbol& symbol);
     Arrays& arrays() { return arrays_; }
+    // The value beside a name in a table; 0 if the name is not there.
+    Lowered find_named(const NamedTable& table, const std::string& name);
     // How many elements a resizable array has room for.
     int room_for(const Symbol& symbol) const {
         return symbol.type.array_length > 0 ? symbol.type.array_length : capacities_[symbol.id];

@@ -31,6 +31,29 @@ struct ShaderParameter {
     std::optional<ConstantValue> constant;  // the default when it folds
 };
 
+// Whether pictures of it can be made: numbers that the shader hands out, of each element one.
+inline bool is_aov(const ShaderParameter& p) {
+    return p.output && p.type.base != BaseType::String && p.type.base != BaseType::Matrix;
+}
+
+// A vertex input that a shader reads by name, with readprimvar(): no parameter of it declares it.
+struct VertexRequest {
+    BaseType type = BaseType::Float;
+    std::string name;  // "": known at run time alone, so that any may be meant
+
+    bool operator==(const VertexRequest&) const = default;
+};
+// The name of its binding, which no parameter can have: "@color.glow".
+std::string vertex_request_name(BaseType type, std::string_view input);
+// The input of such a binding; nothing where it is another binding, or of another type.
+std::optional<std::string_view> requested_input(std::string_view binding, BaseType type);
+
+// An output that a shader names at run time; '*' stands for any text.
+struct NamedOutput {
+    BaseType type = BaseType::Float;  // or Color, for all triples
+    std::string pattern;
+};
+
 // Texts that a parameter is bound to: of a string, or handles for one of type shader.
 using LinkTexts = std::map<std::string, std::vector<std::string>, std::less<>>;
 
@@ -59,10 +82,15 @@ struct Shader {
     std::vector<const GlobalInfo*> globals_read;  // by it and the functions it calls, table order
     std::vector<const GlobalInfo*> globals_written;
     std::vector<const Function*> functions;  // those it reaches
+    std::vector<VertexRequest> vertex_requests;
+    std::vector<NamedOutput> named_outputs;
     std::vector<LinkedPart> parts;  // of a linked shader: itself, then all that it was given
     // Of a surface of a class that has displacement() too: the same class as a displacement, which
     // moves the vertices before the surface is seen.
     std::shared_ptr<const Shader> displacement = nullptr;
 };
+
+// The type of an output that the shader may name so at run time.
+std::optional<BaseType> named_output(const Shader& shader, std::string_view name);
 
 }  // namespace kinora::rsl

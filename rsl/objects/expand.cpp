@@ -210,7 +210,7 @@ bool has_objects(const Ast& ast) {
     return !ast.structs.empty() ||
            std::any_of(ast.shaders.begin(), ast.shaders.end(),
                        [](const ShaderDefinition* s) { return s->shader_class || s->co_shader; }) ||
-           std::any_of(tokens.begin(), tokens.end(), is_of_objects);
+           std::any_of(tokens.begin(), tokens.end(), is_of_objects) || OutputTables::are_in(ast);
 }
 
 bool report_cycle(const Ast& ast, Reporter& reporter, const std::vector<Unit>& units,
@@ -249,11 +249,13 @@ bool expand_objects(Ast& ast, Reporter& reporter, std::vector<Unit> units,
     std::vector<size_t> order = sets.in_order(sets.used()), used = order;
     used.push_back(0);
     ObjectExpander expander(ast, reporter, units, sets);
+    expander.outputs().begin(units[0].shader);
     expander.run(used);
     for (ShaderDefinition* shader : ast.shaders)
         if (shader->shader_class) make_pipeline(ast, reporter, *shader);
     if (units[0].shader)
         join_units(ast, units, order, expander.nested(), expander.behind_members());
+    if (units[0].shader) expander.outputs().end(*units[0].shader);
     return reporter.errors() == errors;
 }
 

@@ -10,6 +10,7 @@
 
 #include "rsl/objects/handle_calls.h"
 #include "rsl/objects/handle_sets.h"
+#include "rsl/objects/output_tables.h"
 #include "rsl/objects/paths.h"
 #include "rsl/objects/structs.h"
 #include "rsl/objects/units.h"
@@ -35,11 +36,13 @@ class ObjectExpander {
           reporter_(reporter),
           units_(units),
           sets_(sets),
-          handles_(ast, units, sets, *this) {}
+          handles_(ast, units, sets, *this),
+          outputs_(ast) {}
     // Rewrites these units.
     void run(const std::vector<size_t>& used);
     // Functions that name what stands in the shader's body, to be defined there.
     const std::vector<Function*>& nested() const { return nested_; }
+    OutputTables& outputs() { return outputs_; }
     // Of these, those that name members of the first unit itself.
     const std::set<const Function*>& behind_members() const { return behind_members_; }
 
@@ -131,6 +134,7 @@ class ObjectExpander {
     std::vector<Unit>& units_;
     const HandleSets& sets_;
     HandleCalls handles_;
+    OutputTables outputs_;
     size_t unit_ = 0;                    // that of what is being rewritten
     Function* top_ = nullptr;            // the candidate being rewritten
     std::set<const Function*> in_body_;  // candidates that name what stands in the shader's body

@@ -7,7 +7,6 @@
 #include <bit>
 #include <utility>
 
-#include "rsl/model/globals.h"
 #include "rsl/objects/expand.h"
 #include "rsl/syntax/copy_tree.h"
 
@@ -262,6 +261,11 @@ bool HandleCalls::call(Expr*& slot) {
         return true;
     }
     if (e.method) return false;
+    if (expander_.outputs_.rewrite(e)) {
+        stands_in_body();
+        expander_.exprs(e.args);
+        return true;
+    }
     if (e.name == "getshader" && e.args.size() == 1) {
         slot = handle(e);
         if (slot->kind != ExprKind::Number) expander_.expr(slot);
@@ -280,12 +284,12 @@ bool HandleCalls::call(Expr*& slot) {
     bool of_handle = !e.args.empty() && is_handle(*e.args[0]);
     if (!of_handle || (e.name != "getvar" && e.name != "hasmethod")) return false;
     bool named = e.args.size() > 1 && e.args[1]->kind == ExprKind::String;
-    if (!named) {
+    if (!named && (e.name == "hasmethod" || e.args.size() < 2)) {
         expander_.report(Code::RSL_STRING_NOT_CONSTANT, e.span, e.name);
         slot = make.number(0);
         return true;
     }
-    slot = e.name == "getvar" ? variable_read(e) : has_method(e);
+    slot = e.name == "hasmethod" ? has_method(e) : named ? variable_read(e) : read_by_text(e);
     return true;
 }
 
@@ -387,88 +391,6 @@ void HandleCalls::list_to_variable(ExpressionStmt& s, std::vector<Stmt*>& out) {
     out.push_back(make.declare({symbol}));
     if (of_lights(*given)) out.push_back(fill_with_lights(*given, symbol->name));
     assign->value = make.variable(symbol->name);
-}
-
-// hasmethod(h, "f")
-Expr* HandleCalls::has_method(const CallExpr& e) {
-    TreeBuilder make(ast_, e.span);
-    std::string_view method = as<StringExpr>(*e.args[1]).value;
-    HandleSet set = sets_.of(expander_.unit_, *e.args[0]), able = 0;
-    if (method == "light") able |= set & kLightHandles;
-    for (size_t k : units_of(set))
-        for (const Method& one : units_[k].methods)
-            if (one.name == method) able |= handle_of(k);
-    if (!able || able == set) return make.number(able ? 1 : 0);
-    std::vector<Case> cases;
-    std::vector<size_t> units = units_of(able);
-    if (able & kLightHandles) units.push_back(kOfLights);
-    for (size_t k : units)
-        cases.push_back({k, {make.assign(make.variable("result of call"), make.number(1))}});
-    std::string name = fmt::format("hasmethod:{}@{:x}", method, set);
-    Symbol result;
-    result.type = {BaseType::Float, -1};
-    add_function(name, result, {}, cases, e.span);
-    return call_by_handle(name, e.args[0], {}, e.span);
-}
-
-// A light's parameter has the type of the variable.
-Expr* HandleCalls::light_value(CallExpr& e, HandleSet set) {
-    if (e.args.size() != 3 || (set & ~(kNullHandle | kLightHandles)))
-        expander_.report(Code::RSL_LIGHT_MEMBER, e.span, as<StringExpr>(*e.args[1]).value);
-    Expr* node = TreeBuilder(ast_, e.span).call("light_value", {e.args.begin(), e.args.end()});
-    expander_.call(as<CallExpr>(*node));
-    return node;
-}
-
-// A global as others see a member; null if there is none of the name.
-const Symbol* HandleCalls::global_symbol(std::string_view name) const {
-    const GlobalInfo* global = find_global(name);
-    if (!global) return nullptr;
-    return TreeBuilder(ast_, {}).symbol(SymbolKind::Local, name, global->type);
-}
-
-// getvar(h, "name", variable), or without the variable: is there one? Of null it is a parameter or
-// a public member of the shader itself, or a global.
-Expr* HandleCalls::variable_read(CallExpr& e) {
-    TreeBuilder make(ast_, e.span);
-    std::string_view path = as<StringExpr>(*e.args[1]).value;
-    HandleSet set = sets_.of(expander_.unit_, *e.args[0]);
-    Expr* object = e.args[0];
-    bool own = names(*object, "null");
-    if (own) set = handle_of(expander_.unit_), object = make.variable("this");
-    std::vector<Member> found = members(set, path);
-    const Symbol* global = own && found.empty() ? global_symbol(path) : nullptr;
-    if (global) found.push_back({expander_.unit_, global});
-    bool reads = e.args.size() > 2;
-    if (set & kLightHandles) return light_value(e, set);
-    if (found.empty()) return make.number(0);
-    std::string name = fmt::format("getvar:{}@{:x}{}", path, set, reads ? "" : "?");
-    std::vector<Symbol*> formals;
-    if (reads) {
-        Symbol* formal = make.symbol(SymbolKind::FunctionParameter, "value", found[0].symbol->type);
-        formal->structure = found[0].symbol->structure;
-        formal->handle = found[0].symbol->handle;
-        formal->output = true;
-        if (formal->type.is_array()) formal->type.array_length = 0;
-        formals.push_back(formal);
-    }
-    std::vector<Case> cases;
-    for (const Member& one : found) {
-        std::vector<Stmt*> body{make.assign(make.variable("result of call"), make.number(1))};
-        std::string from = (global ? "" : units_[one.unit].prefix()) + std::string(path);
-        if (reads) body.push_back(make.assign(make.variable("value"), make.variable(from)));
-        cases.push_back({one.unit, body});
-    }
-    Symbol result;
-    result.type = {BaseType::Float, -1};
-    size_t known = expander_.candidates_.size();
-    add_function(name, result, formals, cases, e.span);
-    bool added = expander_.candidates_.size() > known;
-    if (added && own && expander_.unit_ == 0)
-        expander_.behind_members_.insert(expander_.candidates_.back().function);
-    std::vector<Expr*> args;
-    if (reads) args.push_back(e.args[2]);
-    return call_by_handle(name, object, args, e.span);
 }
 
 }  // namespace kinora::rsl

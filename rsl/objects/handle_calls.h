@@ -1,6 +1,7 @@
 // rsl/objects/handle_calls.h: expressions with shaders in them become numbers and plain calls.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -64,6 +65,10 @@ class HandleCalls {
     const Symbol* global_symbol(std::string_view name) const;
     Expr* light_value(CallExpr& e, HandleSet set);
     Expr* has_method(const CallExpr& e);
+    Expr* vertex_value(CallExpr& e);
+    std::optional<Type> written_type(const Expr& e) const;
+    Expr* read_by_text(CallExpr& e);
+    Stmt* choice_by_text(size_t unit, std::optional<Type> wanted, bool own, SourceSpan span);
     ArrayLiteralExpr* list(const CallExpr& e);
 
     // ---- functions that go by a handle; their names
@@ -77,6 +82,8 @@ class HandleCalls {
                                      bool unanswered, SourceSpan span);
     void add_function(std::string_view name, const Symbol& result, std::vector<Symbol*> formals,
                       const std::vector<Case>& cases, SourceSpan span, Stmt* otherwise = nullptr);
+    void add_reader(std::string_view name, const Symbol& result, std::vector<Symbol*> formals,
+                    const std::vector<Case>& cases, SourceSpan span, bool own);
     Expr* call_by_handle(std::string_view name, Expr* object, std::vector<Expr*> args,
                          SourceSpan span);
     void stands_in_body();

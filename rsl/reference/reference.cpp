@@ -368,7 +368,16 @@ void Reference<Real>::run_layer(const Layer& next) {
             const Item& value = variables_[p.symbol][0];
             output(aov_key(p.name, -1, form_of(value.type), 0), value);
             output(message_key(p.name, -1, form_of(value.type), 0), value);
+        } else if (p.output) {
+            const Storage& items = storage(*p.symbol);
+            for (size_t k = 0; k < items.size(); ++k)
+                output(aov_key(p.name, int(k), form_of(items[k].type), 0), items[k]);
         }
+    for (const NamedTable& table : shader.definition->named_tables) {
+        const Storage &names = storage(*table.names), &values = storage(*table.values);
+        for (size_t k = 0; k < std::min(names.size(), values.size()); ++k)
+            output(aov_key(names[k].text(), -1, form_of(values[k].type), 0), values[k]);
+    }
     if (displacement || shader.kind == ShaderKind::Light) return;
     Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));
     for (size_t k = 0; k < 3 && have_surface_; ++k) {

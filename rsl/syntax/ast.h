@@ -53,6 +53,7 @@ struct Symbol {
     bool resizable = false;   // an array whose length changes: RSL 2.0's "float a[];"
     bool handle = false;      // of type shader: a float that names a linked shader, 0 for null
     bool accessible = false;  // a class's member: declared public
+    bool kept = false;        // a variable of the shader's body that is read behind its end
     bool open = false;        // a shader's parameter "T a[]": as long as what it is bound to
     Expr* initial = nullptr;  // initialiser, or a parameter's default; may be null
     Expr* length = nullptr;   // of a resizable array, at first; null: 0, or that of `initial`
@@ -388,6 +389,17 @@ struct ClassDefinition {
     std::span<Function*> methods;
 };
 
+// Outputs that a shader names at run time: names beside values, resizable arrays.
+struct NamedTable {
+    Symbol* names = nullptr;
+    Symbol* values = nullptr;
+};
+// A call that writes one; '*' stands for any text.
+struct NamedWrite {
+    std::string_view pattern;
+    const CallExpr* call = nullptr;
+};
+
 struct ShaderDefinition {
     ShaderKind kind = ShaderKind::Surface;
     ClassDefinition* shader_class = nullptr;
@@ -404,6 +416,8 @@ struct ShaderDefinition {
     // A class of which only construct(), begin() and displacement() run, whatever else it has.
     bool only_displaces = false;
     bool displaces = false;  // a surface of a class that has displacement() too
+    std::span<NamedTable> named_tables = {};
+    std::span<NamedWrite> named_writes = {};
 };
 
 // Memory of the nodes: blocks that live as long as the Ast.
@@ -455,7 +469,8 @@ struct Ast {
     std::vector<Function*> functions;  // at file level, in order
     std::vector<ShaderDefinition*> shaders;
     std::vector<StructDefinition*> structs;
-    std::vector<std::string_view> pictures;  // texts that calls name as pictures; set by the checker
+    std::vector<std::string_view>
+        pictures;                   // texts that calls name as pictures; set by the checker
     bool resizes = false;           // a call of resize(), push() or such stands in it
     bool resizable_arrays = false;  // a resizable array is declared
     uint32_t symbol_count = 0;      // of Symbol::id

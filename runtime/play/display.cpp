@@ -32,7 +32,9 @@ raytrace::Film film_of(int width, int height, F&& value) {
 
 std::string base_of(const std::string& plane) {
     size_t dot = plane.rfind('.');
-    return dot == plane.npos ? plane : plane.substr(0, dot);
+    bool letter = dot != plane.npos && dot + 2 == plane.size() &&
+                  std::string_view("RGBXYZ").find(plane[dot + 1]) != std::string_view::npos;
+    return !letter ? plane : plane.substr(0, dot);
 }
 
 std::vector<const raytrace::AovPlane*> planes_of(const raytrace::Film& film,

@@ -217,9 +217,10 @@ struct SceneOptions {
 
 // A plane of the film: one component of an output parameter of surfaces.
 struct OutputPlane {
-    std::string name;       // as the film has it: "glow.R", "dirt"
+    std::string name;       // as the film has it: "glow.R", "dirt", "lamps.2.R"
     std::string parameter;  // "glow"
     uint32_t component = 0;
+    int element = -1;     // of an array; -1: it is none
     bool in_file = true;  // false: only an imager reads it
 };
 

@@ -54,7 +54,7 @@ const float* plane_of(const Scene& scene, const raytrace::Film& film, const Vary
                       uint32_t component) {
     const float* whole = nullptr;  // of a parameter that surfaces give as one float
     for (size_t p = 0; p < scene.outputs.size(); ++p) {
-        if (scene.outputs[p].parameter != param.name) continue;
+        if (scene.outputs[p].parameter != param.name || scene.outputs[p].element > 0) continue;
         if (scene.outputs[p].component == component) return film.aovs[p].values.data();
         if (scene.outputs[p].component == 0) whole = film.aovs[p].values.data();
     }

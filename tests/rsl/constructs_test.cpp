@@ -81,6 +81,8 @@ constexpr struct {
     {"shader handles", "classes/shader_handles"},
     {"->", "structs/struct_methods"},
     {"writeaov readaov stof strlen sprintf constant", "builtins/named_outputs"},
+    {"readprimvar, getvar(null, ..) of any name", "builtins/primitive_variables"},
+    {"writeaov(format(..), x)", "builtins/named_outputs_run_time"},
     {"default arguments", "functions/function_defaults"},
     {"noise", "builtins/noise_forms"},
     {"cellnoise", "builtins/noise_cell"},

@@ -70,6 +70,16 @@ void ShaderWriter::resizable() {
     }
     std::string sum = fresh("x");
     line(std::string(type_name(type)) + " " + sum + " = 0; float " + k + ";");
+    if (chance(15))
+        line("for (" + k + " = 0; " + k + " < 70; " + k + " += 1) push(" + name + ", " +
+             value(type, 1) + ");");
+    if (chance(30))
+        line("if (arraylength(" + name + ") >= 4) " + sum + " += " + type_name(type) + " spline(" +
+             value(BaseType::Float, 1) + ", " + name + ");");
+    if (chance(30))
+        line("if (readprimvar(" +
+             std::string(chance(50) ? "\"vary_one\"" : "concat(\"vary_\", \"two\")") + ", " + sum +
+             ") == 0) " + sum + " = 1;");
     line("for (" + k + " = 0; " + k + " < arraylength(" + name + "); " + k + " += 1) " + sum +
          " += " + name + "[" + k + "];");
     scope_.push_back({sum, type, -1, false, true});
@@ -143,7 +153,8 @@ void ShaderWriter::co_shader_statement() {
         case 0:
             return line(h + "->change(" + value(BaseType::Float, 2) + ", " + c + ");");
         case 1:
-            return line(x + " += " + h + "->seen + getvar(" + h + ", \"kept\", " + c + ");");
+            return line(x + " += " + h + "->seen + getvar(" + h + ", " +
+                        (chance(50) ? "\"kept\", " : "concat(\"ke\", \"pt\"), ") + c + ");");
         case 2:
             return line("if (" + h + " != null) " + c + " += " + h + "->kept;");
         default:

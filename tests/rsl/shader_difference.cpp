@@ -1,6 +1,7 @@
 // tests/rsl/shader_difference.cpp: agreement of reference, interpreter and targets on one source.
 #include "tests/rsl/shader_difference.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "jit/passes/passes.h"
@@ -30,27 +31,52 @@ struct Setting {
     size_t points = 1;
 };
 
-void bind_parameter(const ShaderParameter& p, size_t layer, Random& random, Setting& setting) {
-    bool frame = begins_with(p.name, "frame_"), vary = begins_with(p.name, "vary_");
-    if (p.output && p.type.base != BaseType::String) setting.options.aovs.emplace_back(p.name);
-    if (!frame && !vary) return;
-    setting.params.push_back({std::string(p.name),
+// Random numbers for a parameter or a request, and their changes where they vary.
+void bind_values(std::string_view name, BaseType type, size_t layer, bool frame, Random& random,
+                 Setting& setting) {
+    setting.params.push_back({std::string(name),
                               frame ? ParamBinding::Kind::Frame : ParamBinding::Kind::Varying,
                               {},
                               {}});
-    for (int c = 0; c < component_count(p.type.base); ++c) {
+    for (int c = 0; c < component_count(type); ++c) {
         std::string suffix =
-            component_count(p.type.base) == 1
+            component_count(type) == 1
                 ? ""
-                : std::string(".") + (p.type.base == BaseType::Color ? "rgb"[c] : "xyz"[c]);
-        std::string name = "param:" + std::to_string(layer) + ":" + std::string(p.name) + suffix;
+                : std::string(".") + (type == BaseType::Color ? "rgb"[c] : "xyz"[c]);
+        std::string column = "param:" + std::to_string(layer) + ":" + std::string(name) + suffix;
         for (size_t i = 0; i < (frame ? 1 : setting.points); ++i) {
-            setting.columns[name].push_back(random.argument(random.next() % 4 != 0));
+            setting.columns[column].push_back(random.argument(random.next() % 4 != 0));
             if (!frame)
                 for (const char* partial : {":du", ":dv"})
-                    setting.columns[name + partial].push_back(random.uniform(-1, 1));
+                    setting.columns[column + partial].push_back(random.uniform(-1, 1));
         }
     }
+}
+
+void bind_parameter(const ShaderParameter& p, size_t layer, Random& random, Setting& setting) {
+    bool frame = begins_with(p.name, "frame_"), vary = begins_with(p.name, "vary_");
+    if (p.output && p.type.base != BaseType::String) setting.options.aovs.emplace_back(p.name);
+    if (frame || vary) bind_values(p.name, p.type.base, layer, frame, random, setting);
+}
+
+// A vertex input that no parameter declares: that of the name, or two where it may be any.
+void bind_request(const VertexRequest& request, size_t layer, Random& random, Setting& setting) {
+    if (request.type == BaseType::String || request.type == BaseType::Matrix) return;
+    for (std::string_view input : {"vary_one", "vary_two"}) {
+        if (!request.name.empty() && request.name != input) continue;
+        std::string name = vertex_request_name(request.type, input);
+        auto same = [&](const ParamBinding& bound) { return bound.name == name; };
+        if (std::ranges::none_of(setting.params, same))
+            bind_values(name, request.type, layer, false, random, setting);
+    }
+}
+
+// Of those that a pattern may mean: the one with "1" in place of what is made at run time.
+void want_output(const NamedOutput& output, Setting& setting) {
+    std::string name = output.pattern;
+    std::ranges::replace(name, '*', '1');
+    if (std::ranges::find(setting.options.aovs, name) == setting.options.aovs.end())
+        setting.options.aovs.push_back(name);
 }
 
 // "world" and "object" are scaled and moved, each with its inverse.
@@ -96,15 +122,26 @@ Setting setting_of(const Shaders& shaders, uint64_t world) {
     Random random{world * 7919 + 3};
     setting.columns = random_point(world * 31 + 5, setting.points);
     std::vector<Layer> layers = layers_of(shaders, {});
-    for (size_t k = 0; k < layers.size(); ++k)
+    for (size_t k = 0; k < layers.size(); ++k) {
         for (const ShaderParameter& p : layers[k].shader->parameters)
             bind_parameter(p, k, random, setting);
+        for (const VertexRequest& request : layers[k].shader->vertex_requests)
+            bind_request(request, k, random, setting);
+        for (const NamedOutput& output : layers[k].shader->named_outputs)
+            want_output(output, setting);
+    }
     add_spaces(random, setting);
     setting.columns["camera:near"] = {0.5f}, setting.columns["camera:far"] = {100};
     setting.options.want_N = shader.kind != ShaderKind::Light;
     setting.options.want_P = shader.kind == ShaderKind::Displacement ||
                              shader.kind == ShaderKind::Transformation;  // as these leave it
     return setting;
+}
+
+// An output that is named at run time is 0 where the point names it not.
+double value_of(const ReferenceResult& result, const std::string& name) {
+    auto found = result.values.find(name);
+    return found == result.values.end() && name.starts_with("aov:") ? 0 : result.values.at(name);
 }
 
 // How far the value at one point may be from the exact one; negative: not to be compared.
@@ -121,7 +158,7 @@ Allowance allowance(std::span<const Layer> layers, const ReferenceInputs& inputs
         result.decided =
             result.decided && a.decisions == exact.decisions && b.decisions == exact.decisions;
         for (auto& [name, value] : a.values) {
-            double moved = std::fabs(value - b.values.at(name));
+            double moved = std::fabs(value - value_of(b, name));
             double& most = result.by_output[name];
             most = std::isnan(moved) ? 1e300 : std::max(most, moved);
         }
@@ -166,7 +203,7 @@ std::string compare_point(std::span<const Layer> layers, const ReferenceInputs& 
     if (exact.decisions != single.decisions) return counts.undecided += got.size(), "";
     Allowance near;  // found when first needed
     for (auto& [name, column] : got) {
-        double want = exact.values.at(name), plain = single.values.at(name);
+        double want = value_of(exact, name), plain = value_of(single, name);
         bool flag = name.find(":lit") != std::string::npos;
         double have = flag ? double(std::bit_cast<int32_t>(column[i]) != 0) : double(column[i]);
         double most = kFloor * (1 + std::fabs(want));
@@ -176,7 +213,7 @@ std::string compare_point(std::span<const Layer> layers, const ReferenceInputs& 
             ++counts.values;
         } else {
             if (near.by_output.empty()) near = allowance(layers, inputs, exact, single);
-            double moved = near.by_output.at(name);
+            double moved = near.by_output[name];
             if (!near.decided) {
                 ++counts.undecided;
             } else if (kFactor * moved > kUnstable * (1 + std::fabs(want))) {

@@ -161,6 +161,30 @@ TEST(Outputs, OfSurfacesReachPlanesOfTheirNames) {
     for (const auto& plane : r.film.aovs) EXPECT_EQ(plane.values[outside], 0.0f);
 }
 
+TEST(Outputs, OfArraysReachAPlaneAnElement) {
+    SceneText scene;
+    scene.square("s", 0.5)
+        .look(
+            "l",
+            "surface s(output varying color lamps[2] = {1, 1}; output float w[3] = {4, 5, 6};)"
+            "{ float k; for (k = 0; k < 2; k += 1) lamps[k] = color(s, k, 7); w[2] = t; Ci = 1; }")
+        .place("s", "l");
+    SceneOptions options;
+    options.aovs = {"lamps", "w"};
+    Rendering r(scene.text(), options);
+    EXPECT_EQ(r.findings(), "");
+    r.frame();
+    const char* names[] = {"lamps.0.R", "lamps.0.G", "lamps.0.B", "lamps.1.R", "lamps.1.G",
+                           "lamps.1.B", "w.0",       "w.1",       "w.2"};
+    ASSERT_EQ(r.film.aovs.size(), 9u);
+    dvec2 p = r.place(6, 9);
+    const double values[] = {p.x + 0.5, 0, 7, p.x + 0.5, 1, 7, 4, 5, p.y + 0.5};
+    for (size_t k = 0; k < 9; ++k) {
+        EXPECT_EQ(r.film.aovs[k].name, names[k]);
+        EXPECT_NEAR(r.film.aovs[k].values[9 * 16 + 6], values[k], 1e-5) << names[k];
+    }
+}
+
 TEST(Outputs, OfTheNearestSurfaceAndOfShadersThatHaveThem) {
     SceneText scene;
     scene.square("s", 1.5)

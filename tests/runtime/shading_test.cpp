@@ -192,6 +192,36 @@ TEST(SurfaceParameters, VertexInputsReachVaryingParameters) {
                   [](dvec2 p) { return dvec3(7, (p.x + 1.5) / 3, 0); });
 }
 
+// What readprimvar() finds: inputs by their semantics and by what binds them, the rest position in
+// "current" space, and nothing else.
+TEST(SurfaceParameters, AreNotNeededToReadVertexInputs) {
+    for (const char* name :
+         {"\"dirt\"", "what", "concat(\"di\", \"rt\")", "format(\"%srt\", two)"}) {
+        SceneText scene;
+        scene.square("floor", 1.5)
+            .look("look",
+                  fmt::format("surface s(string what = \"dirt\"; string two = \"di\";) {{"
+                              " float d = 7, none = 3; point rest = 0; vector n = 0;"
+                              " float k = readprimvar({}, d) + 2 * readprimvar(\"clean\", none)"
+                              " + 4 * readprimvar(\"Pref\", rest) + 8 * readprimvar(\"b\", none);"
+                              " Oi = 1; Ci = color(d + Du(d), k + distance(rest, P), none); }}",
+                              name))
+            .place(
+                "floor", "look", "<translate>0.25 0 0</translate>", "",
+                "<bind_vertex_input semantic=\"b\" input_semantic=\"TEXCOORD\" input_set=\"0\"/>");
+        std::string text = scene.text(), uv = "source=\"#floor-t\" offset=\"0\" set=\"0\"/>";
+        size_t at = text.find(uv);
+        ASSERT_NE(at, text.npos);
+        text.insert(at + uv.size(), "<input semantic=\"dirt\" source=\"#floor-t\" offset=\"0\"/>");
+        Rendering r(text);
+        EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
+        expect_colors(r.frame(), [](dvec2 p) {
+            double s = (p.x - 0.25 + 1.5) / 3;
+            return dvec3(s + 1, 1 + 4 + 8, s);
+        });
+    }
+}
+
 // ---- displacement as bent normals
 
 SceneOptions bump_only() {

@@ -162,9 +162,10 @@ std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
         for (size_t p = 0; p < use.shader->parameters.size(); ++p)
             layer.params.push_back(
                 bind_parameter(use.shader->parameters[p], shape[p], use, look, l, description));
-        for (const VaryingParam& varying : look.varying)  // globals that the mesh brings
-            if (varying.layer == l && varying.name == "Cs")
-                layer.params.push_back({"Cs", rsl::ParamBinding::Kind::Varying, {}, {}});
+        // Globals that the mesh brings, and inputs that no parameter declares.
+        for (const VaryingParam& varying : look.varying)
+            if (varying.layer == l && (varying.name == "Cs" || varying.name.starts_with('@')))
+                layer.params.push_back({varying.name, rsl::ParamBinding::Kind::Varying, {}, {}});
     }
     return layers;
 }

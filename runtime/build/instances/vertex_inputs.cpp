@@ -1,6 +1,8 @@
 // runtime/build/instances/vertex_inputs.cpp: vertex inputs for the varying parameters of shaders.
 #include "runtime/build/instances/vertex_inputs.h"
 
+#include <set>
+
 #include "runtime/description/picture_rules.h"
 
 namespace kinora {
@@ -20,6 +22,8 @@ class InputFinder {
         for (const rsl::GlobalInfo* global : layer.shader->globals_read)
             if (std::string_view(global->name) == "Cs") add_color(layer);
         for (const rsl::ShaderParameter& p : layer.shader->parameters) add_parameter(layer, p);
+        for (const rsl::VertexRequest& request : layer.shader->vertex_requests)
+            add_request(layer, request);
     }
 
     VertexInputs take() { return std::move(inputs_); }
@@ -67,18 +71,40 @@ class InputFinder {
 
     void add_parameter(const ShaderUse& layer, const rsl::ShaderParameter& p) {
         if (p.type.is_array() || p.type.base == rsl::BaseType::String) return;
-        uint32_t components = uint32_t(rsl::component_count(p.type.base));
         // Of a co-shader's parameter, HANDLE.NAME, the part behind the handle.
-        std::string_view name = p.name.substr(p.name.rfind('.') + 1);
-        const VertexBinding* binding = find_binding(use_, name);
+        add_input(layer, std::string(p.name), p.name.substr(p.name.rfind('.') + 1), p.type.base);
+    }
+
+    // `input` as the file names it, for a parameter or request of that name and type.
+    void add_input(const ShaderUse& layer, std::string name, std::string_view input,
+                   rsl::BaseType type) {
+        uint32_t components = uint32_t(rsl::component_count(type));
+        const VertexBinding* binding = find_binding(use_, input);
         const VertexAttribute* attribute =
             binding ? find_attribute(group_, binding->semantic, binding->set)
-                    : find_attribute(group_, name);
+                    : find_attribute(group_, input);
         attribute = read_by(layer, attribute);
         if (attribute)
-            add(std::string(p.name), attribute->semantic, attribute, 0, components);
-        else if (p.name == "Pref" && components == 3)
-            add("Pref", "Pref", nullptr, 0, 3);
+            add(std::move(name), attribute->semantic, attribute, 0, components);
+        else if (input == "Pref" && components == 3)
+            add(std::move(name), "Pref", nullptr, 0, 3);
+    }
+
+    // A name that is known at run time alone may be that of any input.
+    void add_request(const ShaderUse& layer, const rsl::VertexRequest& request) {
+        if (request.type == rsl::BaseType::String) return;
+        std::set<std::string> names{request.name};
+        if (request.name.empty()) names = all_names();
+        for (const std::string& name : names)
+            add_input(layer, rsl::vertex_request_name(request.type, name), name, request.type);
+    }
+    std::set<std::string> all_names() const {
+        std::set<std::string> names{"Pref"};
+        for (const VertexAttribute& a : group_.attributes) names.insert(a.semantic);
+        if (use_)
+            for (const VertexBinding& binding : use_->vertex_bindings) names.insert(binding.param);
+        names.erase(std::string(kLinearColor));
+        return names;
     }
 
     const PrimitiveGroup& group_;

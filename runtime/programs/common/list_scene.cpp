@@ -181,16 +181,18 @@ Json aovs(const Scene& scene) {
     std::set<std::string> seen;
     for (const auto& look : scene.shader_instances) {
         if (look->kind != ShaderInstanceKind::Surface) continue;
-        for (const ShaderUse& use : look->layers)
-            for (const rsl::ShaderParameter& p : use.shader->parameters) {
-                bool numbers = p.output && !p.type.is_array() &&
-                               p.type.base != rsl::BaseType::String &&
-                               p.type.base != rsl::BaseType::Matrix;
-                if (numbers && seen.insert(std::string(p.name)).second)
-                    list.push_back({{"name", p.name},
-                                    {"type", rsl::type_name(p.type)},
+        for (const ShaderUse& use : look->layers) {
+            auto add = [&](std::string_view name, rsl::Type type) {
+                if (seen.insert(std::string(name)).second)
+                    list.push_back({{"name", name},
+                                    {"type", rsl::type_name(type)},
                                     {"shader", use.shader->name}});
-            }
+            };
+            for (const rsl::ShaderParameter& p : use.shader->parameters)
+                if (rsl::is_aov(p)) add(p.name, p.type);
+            for (const rsl::NamedOutput& o : use.shader->named_outputs)
+                add(o.pattern, {o.type, -1});
+        }
     }
     return list;
 }

@@ -294,7 +294,10 @@ constexpr ManualEntry kHandles[] = {
 )"},
     {"getvar", "getvar(shader, \"name\", variable)",
      "RSL 2.0. 1, and the variable set, if the shader has a public member or a parameter of that "
-     "name; else 0. Of null it is this shader's own.",
+     "name; else 0. Of null it is this shader's own, a global, or else what the mesh brings at "
+     "each "
+     "vertex under that name; readprimvar(\"name\", variable) is the same. The name may be made at "
+     "run time. A resizable array takes the length of what it gets.",
      R"(surface tinted(color own = color(0.8, 0.2, 0.2);) {
     color tint = own;
     getvar(getshader("paint"), "tint", tint);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 #include "runtime/description/findings.h"
@@ -105,6 +106,20 @@ void bind_value(const rsl::ShaderParameter& parameter, bool shape, size_t layer,
     stack.layers[layer].params.push_back(std::move(binding));
 }
 
+}  // namespace
+
+std::pair<std::string, int> output_element(const std::string& output) {
+    size_t dot = output.rfind('.');
+    if (dot == output.npos) return {output, -1};
+    int element = -1;
+    const char* end = output.data() + output.size();
+    auto [rest, error] = std::from_chars(output.data() + dot + 1, end, element);
+    bool number = error == std::errc() && rest == end && element >= 0;
+    return number ? std::pair(output.substr(0, dot), element) : std::pair(output, -1);
+}
+
+namespace {
+
 int choose_outputs(const std::string& output, const rsl::Shader& shader, ShadeStack& stack) {
     if (output == "Ci" || output == "Oi") return kExitOk;
     if (output == "N" || output == "P") {
@@ -113,14 +128,23 @@ int choose_outputs(const std::string& output, const rsl::Shader& shader, ShadeSt
     }
     std::vector<std::string_view> names = {"Ci", "Oi", "N", "P"};
     std::string all = "Ci, Oi, N, P";
+    auto [name, element] = output_element(output);
     for (const rsl::ShaderParameter& parameter : shader.parameters) {
         if (!parameter.output) continue;
-        if (parameter.name == output) {
-            stack.lower.aovs.push_back(output);
+        bool array = parameter.type.is_array();
+        if (parameter.name == name && array == (element >= 0) &&
+            element < std::max(parameter.type.array_length, 1)) {
+            stack.lower.aovs.push_back(name);
             return kExitOk;
         }
         names.push_back(parameter.name);
-        all += fmt::format(", {}", parameter.name);
+        std::string last = fmt::format("{}.{}", parameter.name, parameter.type.array_length - 1);
+        all += array ? fmt::format(", {}.0 to {}", parameter.name, last)
+                     : fmt::format(", {}", parameter.name);
+    }
+    if (rsl::named_output(shader, output)) {
+        stack.lower.aovs.push_back(output);
+        return kExitOk;
     }
     std::string_view near = nearest_name(output, names);
     return usage(

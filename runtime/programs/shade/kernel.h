@@ -32,6 +32,9 @@ struct ShadeStack {
 std::optional<int> open_stack(const ShadeOptions& options, ShadeSource& source, Patch& patch,
                               ShadeStack& stack);
 
+// "lamps.2": element 2 of the output parameter lamps; of one that is no array -1.
+std::pair<std::string, int> output_element(const std::string& output);
+
 // The part of it that binds: 0, or the exit code of unknown or ill-formed parameters and outputs.
 int bind_stack(const ShadeOptions& options, const ShadeSource& source, const rsl::Shader& shader,
                const Patch& patch, ShadeStack& stack);

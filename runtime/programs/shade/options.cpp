@@ -94,8 +94,9 @@ void add_grid(CLI::App& command, ShadeOptions& o, Texts& texts) {
              "NAME=VALUE: a number, several with commas, or a text");
     command.add_flag("--sphere", o.sphere, "a sphere instead of a square");
     command.add_flag("--flip", o.flip, "a light shines along -z of its space instead of z");
-    command.add_option("--output", o.output,
-                       "Ci, Oi, N, P or an output parameter of the shader (Ci)");
+    command.add_option(
+        "--output", o.output,
+        "Ci, Oi, N, P or an output parameter of the shader; of an array NAME.0 and so on (Ci)");
     command.add_option("--target", texts.target, "avx512, avx2, neon or interp");
     add_choice<jit::math::Tier>(
         command, "--math", o.math,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/shading/shader_instance.h"
@@ -80,6 +81,40 @@ rsl::ParamBinding binding_of(const rsl::ShaderParameter& parameter, bool shape, 
     return binding;
 }
 
+std::optional<FittedValue> try_fit(const PointsValue& value, rsl::Type type, size_t count) {
+    std::vector<size_t> one = shape_of(type), each = one;
+    each.insert(each.begin(), count);
+    FittedValue fitted{false, value};
+    bool text = type.base == BaseType::String;
+    if (text != value.is_text()) return {};
+    if (value.flat ? value.size() == product(one) : value.lengths == one) return fitted;
+    if (value.lengths == each && !text) {
+        fitted.per_point = true;
+        return fitted;
+    }
+    if (value.size() != 1 || !value.lengths.empty() || !rsl::is_triple(type)) return {};
+    fitted.value.numbers.resize(3, value.numbers[0]);
+    return fitted;
+}
+
+// Variables that the shader reads and no parameter declares, where their values fit.
+void bind_requests(const rsl::Shader& shader, uint32_t layer, const PointsDocument& document,
+                   rsl::Layer& out, PointsNumbers& numbers) {
+    for (const rsl::VertexRequest& request : shader.vertex_requests)
+        for (const auto& [name, value] : document.variables) {
+            rsl::ShaderParameter parameter;
+            std::string binding = rsl::vertex_request_name(request.type, name);
+            parameter.name = binding;
+            parameter.type = {request.type, -1};
+            bool meant = request.name.empty() || request.name == name;
+            if (!meant || request.type == BaseType::String) continue;
+            std::optional<FittedValue> fitted = try_fit(value, parameter.type, document.count);
+            if (fitted)
+                out.params.push_back(
+                    binding_of(parameter, false, layer, *std::move(fitted), numbers));
+        }
+}
+
 // Cs and Os, which are 1 where nobody says otherwise.
 void bind_color(const char* name, uint32_t layer, const PointsDocument& document, rsl::Layer& out,
                 PointsNumbers& numbers) {
@@ -98,21 +133,10 @@ void bind_color(const char* name, uint32_t layer, const PointsDocument& document
 
 FittedValue fit_value(const std::string& where, const PointsValue& value, rsl::Type type,
                       size_t count) {
+    if (std::optional<FittedValue> fitted = try_fit(value, type, count)) return *std::move(fitted);
     std::vector<size_t> one = shape_of(type), each = one;
     each.insert(each.begin(), count);
-    FittedValue fitted{false, value};
     bool text = type.base == BaseType::String;
-    if (text == value.is_text()) {
-        if (value.flat ? value.size() == product(one) : value.lengths == one) return fitted;
-        if (value.lengths == each && !text) {
-            fitted.per_point = true;
-            return fitted;
-        }
-        if (value.size() == 1 && value.lengths.empty() && rsl::is_triple(type)) {
-            fitted.value.numbers.resize(3, value.numbers[0]);
-            return fitted;
-        }
-    }
     std::string got = value.flat ? fmt::format("{} of them", value.size())
                                  : points_shape(value.lengths, value.is_text());
     std::string wanted = points_shape(one, text);
@@ -147,6 +171,7 @@ rsl::Layer bind_points_layer(const rsl::Shader& shader, uint32_t index,
             move_to_current(parameter.type.base, current_from_shader, fitted.value.numbers);
         layer.params.push_back(binding_of(parameter, shape[p], index, std::move(fitted), numbers));
     }
+    bind_requests(shader, index, document, layer, numbers);
     for (const char* name : {"Cs", "Os"}) bind_color(name, index, document, layer, numbers);
     return layer;
 }

@@ -252,10 +252,15 @@ class PointsRun {
     // Variables that nobody reads are most likely misspelt.
     void tell_unused(const rsl::Shader& shader) {
         std::vector<std::string_view> names;
+        bool any = false;  // a name that is known at run time alone
         for (const rsl::GlobalInfo& global : rsl::globals()) names.push_back(global.name);
         auto add = [&](const rsl::Shader& one) {
             for (const rsl::ShaderParameter& parameter : one.parameters)
                 names.push_back(parameter.name);
+            for (const rsl::VertexRequest& request : one.vertex_requests) {
+                names.push_back(request.name);
+                any = any || request.name.empty();
+            }
         };
         add(shader);
         for (const Pass& pass : before_) add(*pass.stack.layers[0].shader);
@@ -266,6 +271,7 @@ class PointsRun {
                 throw PointsError(fmt::format("{}: {} for {} points", name,
                                               points_shape(value.lengths, value.is_text()),
                                               points_.count()));
+            if (any) continue;
             std::string_view near = nearest_name(name, names);
             if (!options_.quiet)
                 std::fprintf(stderr, "kinora-shade: no shader reads the variable '%s'%s\n",

@@ -28,12 +28,13 @@ std::vector<std::string> columns_of(const std::string& output, const ShadeOutput
         auto found = names(key, rsl::component_count(global->type.base));
         if (!found.empty()) return found;
     }
-    for (ComponentForm form :
-         {ComponentForm::Single, ComponentForm::Color, ComponentForm::Triple}) {
-        auto key = [&](int k) { return rsl::aov_key(output, -1, form, k); };
-        auto found = names(key, form == ComponentForm::Single ? 1 : 3);
-        if (!found.empty()) return found;
-    }
+    for (const auto& [parameter, element] : {std::pair(output, -1), output_element(output)})
+        for (ComponentForm form :
+             {ComponentForm::Single, ComponentForm::Color, ComponentForm::Triple}) {
+            auto key = [&](int k) { return rsl::aov_key(parameter, element, form, k); };
+            auto found = names(key, form == ComponentForm::Single ? 1 : 3);
+            if (!found.empty()) return found;
+        }
     return {};
 }
 

@@ -221,6 +221,19 @@ class Options(ProgramTest):
         self.expect(result, 2, "AOV_UNKNOWN")
         self.assertIn(b"dirt\0", picture.read_bytes()[:4096])  # nothing was written
 
+    def test_elements_of_output_arrays_become_channels(self):
+        shader = self.write("out.sl", "surface out(output varying color lamps[3] = {0, 0, 0};"
+                                      " output varying float weights[2] = {0, 0}; output varying float w = 0;)"
+                                      " { lamps[1] = 1; weights[1] = 2; Oi = 1; Ci = 1; }")
+        picture = self.folder / "a.exr"
+        words = (MATTE, "--shader", f"*={shader}", "--time", "0", *SMALL)
+        self.expect(render(*words, "--aov", "lamps,weights,w", "-o", picture), 0)
+        header = picture.read_bytes()[:4096]
+        for name in (b"lamps.0.R\0", b"lamps.2.B\0", b"weights.0\0", b"weights.1\0", b"w\0"):
+            self.assertIn(name, header)
+        self.assertNotIn(b"lamps.3.R\0", header)
+        self.assertIn("lamps (color[3], of out)", render(*words, "--list", "aovs").stdout)
+
     def test_imagers_are_chosen_by_name_by_file_and_not_at_all(self):
         def picture(imager):
             file = self.folder / "a.png"

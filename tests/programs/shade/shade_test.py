@@ -147,6 +147,11 @@ class Run(ProgramTest):
         self.expect(shade("run", plastic, "--param", "Kd=1,2"), 2, "takes 1 number, not 2")
         self.expect(shade("run", plastic, "--param", "Kd"), 2, "NAME=VALUE")
         self.expect(shade("run", plastic, "--output", "Cj"), 2, "did you mean 'Ci'")
+        lists = self.write("lists.sl", "surface x(output varying color c[2] = {1, 1};) { c[1] = s; Ci = 1; }")
+        for wrong in ("c", "c.2", "c.x", "Ci.0"):
+            self.expect(shade("run", lists, "--output", wrong), 2, f"'{wrong}' is no output")
+        got = ranges(self.expect(shade("run", lists, "--output", "c.0", "--size", "4x4"), 0))
+        self.assertEqual(got, {"aov:c[0].r": (1, 1), "aov:c[0].g": (1, 1), "aov:c[0].b": (1, 1)})
         self.expect(shade("run", plastic, "--size", "4"), 2, "--size")
         self.expect(shade("run", plastic, "-o", "a.gif"), 2, ".png")
         self.expect(shade("run", plastic, "--shader", "x"), 2, "plastic")

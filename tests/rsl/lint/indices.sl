@@ -18,7 +18,7 @@ surface x(float n = 3, open[] = {1, 2}, given[2] = {1, 2};) {
     setcomp(c, -1, 2);
     Ci = x + two(b) + c + b[0];
 }
-//! 1:58 warning RSL_INDEX_RANGE index -1 is outside of array 'list', whose elements are 0 and above
+//! 1:49 warning RSL_INDEX_RANGE index -1 is outside of array 'list', whose elements are 0 and above
 //! 6:7 warning RSL_INDEX_RANGE index 2 is outside of array 'b', whose elements are 0 to 1
 //! 7:7 warning RSL_INDEX_RANGE index -1
 //! 8:7 warning RSL_INDEX_RANGE index 5
@@ -31,6 +31,6 @@ surface x(float n = 3, open[] = {1, 2}, given[2] = {1, 2};) {
 //! 15:60 warning RSL_INDEX_RANGE index 2 is outside of array 'given'
 //! 16:7 warning RSL_INDEX_RANGE index 3 is outside of a color, whose elements are 0 to 2
 //! 17:25 warning RSL_INDEX_RANGE index 3
-//! 17:59 warning RSL_INDEX_RANGE index 4 is outside of a matrix, whose elements are 0 to 3
-//! 17:71 warning RSL_INDEX_RANGE index 4
+//! 17:54 warning RSL_INDEX_RANGE index 4 is outside of a matrix, whose elements are 0 to 3
+//! 17:67 warning RSL_INDEX_RANGE index 4
 //! 18:16 warning RSL_INDEX_RANGE index -1

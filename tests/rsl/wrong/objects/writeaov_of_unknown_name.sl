@@ -1,5 +1,6 @@
-surface x(string name = "a";) {
+surface one(string name = "kept") {
     writeaov(name, Cs);
-    Ci = 1;
+    Ci = Cs;
 }
+surface other() { Ci = Cs; }
 //! 2:5 error RSL_ARGUMENT_FORM writeaov takes a constant string
