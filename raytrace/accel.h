@@ -123,6 +123,10 @@ class Accel {
     Accel(Accel&&) noexcept;
     Accel& operator=(Accel&&) noexcept;
 
+    // Another one with the same structures, for rows that never change again: neither is updated
+    // from then on.
+    Accel shared() const;
+
     // Brings the structures up to date with the rows. Rows are known by their index and compared
     // with the last update: nothing changed costs some nanoseconds a row and commits nothing.
     const AccelUpdate& update(std::span<const Geometry> geometry);
@@ -130,6 +134,9 @@ class Accel {
     // rows of a shape whose vertices changed are among them. What it costs depends on them alone,
     // but for Embree's own commit of the top scene.
     const AccelUpdate& update(std::span<const Geometry> geometry, std::span<const uint32_t> rows);
+
+    // What the last update did.
+    const AccelUpdate& last_update() const;
 
     // Closest hits; returns the bit mask of lanes that hit.
     uint32_t intersect16(const RayPacket16& rays, HitPacket16& hits, TraceCounters& counters) const;
@@ -163,7 +170,7 @@ class Accel {
     struct State;  // accel_state_p.h
 
   private:
-    std::unique_ptr<State> state_;
+    std::shared_ptr<State> state_;
 };
 
 inline const AccelUpdate& update(Accel& accel, std::span<const Geometry> geometry) {

@@ -266,12 +266,22 @@ void Updater::run(std::span<const Geometry> geometry, std::span<const uint32_t> 
     if (want_background_) start_background();
 }
 
-Accel::Accel(const AccelPolicy& policy) : state_(std::make_unique<State>()) {
+Accel::Accel(const AccelPolicy& policy) : state_(std::make_shared<State>()) {
     state_->policy = policy;
 }
 Accel::~Accel() = default;
 Accel::Accel(Accel&&) noexcept = default;
 Accel& Accel::operator=(Accel&&) noexcept = default;
+
+Accel Accel::shared() const {
+    Accel same(state_->policy);
+    same.state_ = state_;
+    return same;
+}
+
+const AccelUpdate& Accel::last_update() const {
+    return state_->report;
+}
 
 const AccelUpdate& Accel::update(std::span<const Geometry> geometry) {
     std::vector<uint32_t>& all = state_->all_rows;

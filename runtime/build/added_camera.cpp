@@ -57,7 +57,7 @@ void AddedCamera::find_path() {
         if (times_.size() > 1) pose_at(scene_, time);
         Bounds now;
         for (const dvec3& p : subject_now(true)) now.add(p);
-        if (now.empty() && at_node_ != kNone) now.add(dvec3(scene_.nodes[at_node_].world[3]));
+        if (now.empty() && at_node_ != kNone) now.add(dvec3(scene_.start.nodes[at_node_].world[3]));
         if (now.empty()) now.add(path_.empty() ? scene_.origin : path_.back());
         all.add(now.low);
         all.add(now.high);
@@ -178,7 +178,7 @@ void AddedCamera::add(Diagnostics& diagnostics) {
     uint32_t index = tree_.add(node(chosen), kNone);
     animate(index);
     scene_.cameras.push_back({uint32_t(description.cameras.size() - 1), index, kName});
-    scene_.camera = uint32_t(scene_.cameras.size() - 1);
+    scene_.start.camera = uint32_t(scene_.cameras.size() - 1);
     scene_.added.push_back(kName);
     pose_at(scene_, scene_.options.start_time);
 }

@@ -90,7 +90,7 @@ double AddedCamera::covered_at(const Stand& stand, size_t time) {
                  dvec4(origin(time) + stand.eye, 1));
     raytrace::Camera camera;
     raytrace::make_camera(optics, matrix, width, kHeight, scene_.origin, scene_.size, camera);
-    return covered_share(scene_, camera, kLittle);
+    return covered_share(scene_, scene_.start, camera, kLittle);
 }
 
 JudgedStand AddedCamera::judged(const Stand& stand) {

@@ -17,8 +17,9 @@
 #include "runtime/images/point_store.h"
 #include "runtime/images/texture.h"
 #include "runtime/images/texture_store.h"
+#include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
-#include "runtime/shading/shading.h"
+#include "runtime/shading/shader_instance.h"
 #include "runtime/vertices/dice_error.h"
 #include "runtime/vertices/vertex_work.h"
 
@@ -39,7 +40,6 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
     scene->points = std::make_shared<PointStore>(description->readable);
     scene->description = std::move(description);
     scene->options = options;
-    scene->accel = raytrace::Accel(options.accel);
     return scene;
 }
 
@@ -51,6 +51,14 @@ bool has_picture_shaders(const SceneDescription& description) {
     return any(description.picture) ||
            std::ranges::any_of(description.cameras,
                                [&](const CameraDefinition& camera) { return any(camera.picture); });
+}
+
+// What frames pose again: each pose has vertices of its own.
+void drop_vertices(Pose& start) {
+    start.shapes.clear();
+    start.rows.clear();
+    start.vertex_outputs.clear();
+    start.watched.clear();
 }
 
 // False, with an error, for a file that holds nothing to see. What the user hides is no error.
@@ -76,7 +84,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
 
     NodeTree tree(scene);
     SkinBinder skins(scene, tree, node_poses(scene), diagnostics);
-    evaluate_anew(scene, options.start_time);
+    evaluate_anew(scene, scene.start, options.start_time);
     std::vector<SurfaceUse> uses = add_shapes(scene, skins, diagnostics);
     if (!something_to_draw(scene, diagnostics)) return nullptr;
     set_bounds(scene);
@@ -96,7 +104,9 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     }
     scene.baked_samplers = anim::baked(scene.description->animation, options.keys);
     set_rows(scene);
-    scene.shading = std::make_unique<Shading>(scene);
+    find_moving_parts(scene);
+    if (scene.moving.surfaces.empty()) scene.still_tree = std::make_unique<StillTree>();
+    drop_vertices(scene.start);
     return made;
 }
 

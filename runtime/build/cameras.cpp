@@ -54,9 +54,10 @@ uint32_t find_camera(const Scene& scene, const NodeTree& tree, const std::string
 // Another field of view for the scene's camera; its window keeps its shape. False after an error.
 bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
     SceneDescription& description = *scene.description;
-    CameraDefinition& camera = description.cameras[scene.cameras[scene.camera].definition];
+    CameraDefinition& camera = description.cameras[scene.cameras[scene.start.camera].definition];
     if (camera.orthographic) {
-        diagnostics.report(Code::CAMERA_PARALLEL, camera.where, scene.cameras[scene.camera].name);
+        diagnostics.report(Code::CAMERA_PARALLEL, camera.where,
+                           scene.cameras[scene.start.camera].name);
         return false;
     }
     std::optional<double> aspect = camera_aspect(scene);
@@ -87,8 +88,8 @@ double most_covered(Scene& scene, double enough) {
     std::vector<double> times = played_times(scene);
     for (double time : times) {
         if (time != options.start_time) pose_at(scene, time);
-        if (!raytrace::is_error(set_view(scene, width, height)))
-            most = std::max(most, covered_share(scene, scene.view, enough));
+        if (!raytrace::is_error(set_view(scene, scene.start, width, height)))
+            most = std::max(most, covered_share(scene, scene.start, scene.start.view, enough));
         if (most >= enough) break;
     }
     if (times.size() > 1) pose_at(scene, options.start_time);
@@ -104,13 +105,13 @@ std::string word_for(const CameraSource& camera) {
 bool choose_default(Scene& scene, NodeTree& tree, double enough, Diagnostics& diagnostics) {
     const ViewWord& view = *find_view("auto");
     if (scene.cameras.empty()) return add_camera(scene, tree, view, diagnostics);
-    scene.camera = first_camera(scene, tree);
+    scene.start.camera = first_camera(scene, tree);
     double yfov = scene.options.view.yfov;
     if (yfov > 0 && !change_yfov(scene, yfov, diagnostics)) return false;
     if (!anything_to_draw(scene) || enough == 0) return true;
     double covered = most_covered(scene, enough);
     if (covered >= enough) return true;
-    CameraSource blind = scene.cameras[scene.camera];
+    CameraSource blind = scene.cameras[scene.start.camera];
     Location where = scene.description->cameras[blind.definition].where;
     diagnostics.report(Code::CAMERA_SEES_LITTLE, where, blind.name, 100 * covered).help =
         fmt::format("--camera '{}' shows what it sees", word_for(blind));
@@ -142,7 +143,7 @@ bool choose_camera(Scene& scene, NodeTree& tree, Diagnostics& diagnostics) {
         diagnostics.report(Code::CAMERA_UNKNOWN, Location{}, options.camera);
         return false;
     }
-    scene.camera = found;
+    scene.start.camera = found;
     return options.view.yfov == 0 || change_yfov(scene, options.view.yfov, diagnostics);
 }
 

@@ -95,15 +95,17 @@ class CoverageGrid {
 };
 
 // All positions of a shape, in accel space.
-void place_vertices(const Scene& scene, const Shape& shape, const CoverageGrid& grid,
+void place_vertices(const Scene& scene, const Pose& pose, uint32_t index, const CoverageGrid& grid,
                     std::vector<Seen>& vertices) {
+    const Shape& shape = scene.shapes[index];
     const Mesh& mesh = scene.meshes[shape.mesh];
     vertices.clear();
     if (shape.kind != raytrace::GeometryKind::Instanced) {
-        for (const vec4& p : shape.positions) vertices.push_back(grid.seen(dvec3(p)));
+        for (const vec4& p : pose.shapes[index].shown_positions)
+            vertices.push_back(grid.seen(dvec3(p)));
         return;
     }
-    dmat4 world = scene.nodes[shape.node].world * shape.conversion;
+    dmat4 world = pose.nodes[shape.node].world * shape.conversion;
     for (const vec4& p : mesh.positions)
         vertices.push_back(
             grid.seen(dvec3(world * dvec4(dvec3(p) + mesh.anchor, 1.0)) - scene.origin));
@@ -111,16 +113,17 @@ void place_vertices(const Scene& scene, const Shape& shape, const CoverageGrid& 
 
 }  // namespace
 
-double covered_share(const Scene& scene, const raytrace::Camera& camera, double enough) {
+double covered_share(const Scene& scene, const Pose& pose, const raytrace::Camera& camera,
+                     double enough) {
     CoverageGrid grid(camera);
     std::vector<Seen> vertices;
     uint32_t placed = kNone;
     for (const Surface& surface : scene.surfaces) {
         const Shape& shape = scene.shapes[surface.shape];
         const Mesh& mesh = scene.meshes[shape.mesh];
-        if (placed != surface.shape) place_vertices(scene, shape, grid, vertices);
+        if (placed != surface.shape) place_vertices(scene, pose, surface.shape, grid, vertices);
         placed = surface.shape;
-        double front = mesh.double_sided ? 0 : shape.mirrored ? -1 : 1;
+        double front = mesh.double_sided ? 0 : pose.shapes[surface.shape].mirrored ? -1 : 1;
         const std::vector<uint32_t>& t = mesh.groups[surface.group].triangles;
         for (size_t c = 0; c + 2 < t.size(); c += 3) {
             if (c % kLookEvery == 0 && grid.share() >= enough) return grid.share();

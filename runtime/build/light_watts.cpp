@@ -27,7 +27,7 @@ struct LightNumbers {
     double largest(const char* name, double otherwise) const {
         for (const ParamSource& p : use.params)
             if (p.name == name && p.value.present()) {
-                const double* values = scene.values.data() + p.value.offset;
+                const double* values = scene.start.values.data() + p.value.offset;
                 return *std::max_element(values, values + p.value.count);
             }
         return otherwise;
@@ -46,7 +46,7 @@ Arriving light_at(const Scene& scene, const LightSource& light, dvec3 point) {
     const std::string& shader = use.shader->name;
     LightNumbers numbers{scene, use};
     double strength = std::max(numbers.largest("lightcolor", 1), 0.0);
-    const dmat4& world = scene.nodes[light.node].world;
+    const dmat4& world = scene.start.nodes[light.node].world;
     dvec3 back = glm::normalize(dvec3(world[2]));  // lights look along -z of their nodes
     if (shader == "collada_ambient") return {dvec3(0.0), strength};
     if (shader == "collada_directional") return {back, strength};

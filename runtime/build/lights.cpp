@@ -8,6 +8,7 @@
 #include "runtime/build/instances/instances.h"
 #include "runtime/build/light_watts.h"
 #include "runtime/description/findings.h"
+#include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
@@ -106,9 +107,10 @@ bool add_default_lights(Scene& scene, Diagnostics& diagnostics) {
     scene.options.lights = LightSet::Both;
     std::vector<LightDefinition> lights = lights_to_add(scene);
     NodeDefinition carrier = default_light_node(scene.description->values);
-    uint32_t node = add_node(scene, std::move(carrier), scene.cameras[scene.camera].node);
+    uint32_t node = add_node(scene, std::move(carrier), scene.cameras[scene.start.camera].node);
     for (LightDefinition& light : lights)
         if (light.name != kGreyWorld) add_default_light(scene, std::move(light), node);
+    find_moving_parts(scene);
     return add_light_instances(scene, diagnostics);
 }
 
@@ -132,7 +134,7 @@ void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
     // Before NodeTree::add, which takes the description's values over into the scene.
     std::vector<LightDefinition> lights = lights_to_add(scene);
     NodeDefinition carrier = default_light_node(scene.description->values);
-    uint32_t node = tree.add(carrier, scene.cameras[scene.camera].node);
+    uint32_t node = tree.add(carrier, scene.cameras[scene.start.camera].node);
     for (LightDefinition& light : lights)
         if (light.name != kGreyWorld) add_default_light(scene, std::move(light), node);
 }

@@ -104,6 +104,9 @@ struct VertexAttribute {
     uint32_t stride = 0;            // floats an entry
     std::vector<float> values;      // stride x entries
     std::vector<uint32_t> corners;  // entry of each corner, 3 a triangle
+    // Written by shaders in each frame: its number among Pose::vertex_outputs, where the values
+    // are.
+    uint32_t output = kNone;
 };
 
 // Vertex colours in linear light, beside COLOR of the same set as the file holds them.

@@ -26,13 +26,13 @@ void explain_settings(const Quality& quality, std::string_view preset, Explained
     }
 }
 
-void explain_added(const Scene& scene, ExplainedRows& rows) {
+void explain_added(const Scene& scene, const Pose&, ExplainedRows& rows) {
     for (const std::string& name : scene.added) rows.add(name, "added", "the file has none in use");
 }
 
 constexpr struct {
     std::string_view name;
-    void (*explain)(const Scene&, ExplainedRows&);
+    void (*explain)(const Scene&, const Pose&, ExplainedRows&);
 } kSections[] = {
     {"added", explain_added},     {"meshes", explain_meshes}, {"animation", explain_animation},
     {"shaders", explain_shaders}, {"lights", explain_lights}, {"textures", explain_textures},
@@ -41,7 +41,7 @@ constexpr struct {
 
 }  // namespace
 
-std::vector<Explained> explain(const Scene& scene, const Quality& quality,
+std::vector<Explained> explain(const Scene& scene, const Pose& pose, const Quality& quality,
                                std::string_view preset) {
     std::vector<Explained> found;
     ExplainedRows rows(found);
@@ -50,7 +50,7 @@ std::vector<Explained> explain(const Scene& scene, const Quality& quality,
     for (const auto& section : kSections) {
         rows.section(section.name);
         const size_t first = found.size();
-        section.explain(scene, rows);
+        section.explain(scene, pose, rows);
         std::stable_partition(found.begin() + ptrdiff_t(first), found.end(),
                               [](const Explained& row) { return row.modelled; });
     }

@@ -18,9 +18,11 @@ struct Explained {
     std::string why;
 };
 
-// What is modelled comes first in a section. Read off what the builder made and the frames so far used: kernels by their inputs, textures by
-// what was opened. `quality` is what the scene was built for, `preset` the name it began with.
-std::vector<Explained> explain(const Scene& scene, const Quality& quality, std::string_view preset);
+// What is modelled comes first in a section. Read off what the builder made and what the pose's
+// frames so far used: kernels by their inputs, textures by what was opened. `quality` is what the
+// scene was built for, `preset` the name it began with.
+std::vector<Explained> explain(const Scene& scene, const Pose& pose, const Quality& quality,
+                               std::string_view preset);
 
 // Sections with a line a row, at most 20 rows a section and then their number; or one JSON object
 // of arrays with all rows.

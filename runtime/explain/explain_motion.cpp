@@ -1,6 +1,7 @@
 // runtime/explain/explain_motion.cpp: which meshes deform, move and stand, and by which channels.
 #include <fmt/format.h>
 
+#include "runtime/description/morph_weights.h"
 #include "runtime/explain/explain_p.h"
 #include "runtime/vertices/vertex_work.h"
 #include "skin/narrowest.h"
@@ -22,14 +23,13 @@ std::string shown_shape(const Scene& scene, const Shape& shape) {
 }
 
 // What linear blending takes from the limbs of a pose. Before a frame no pose is known.
-void explain_blending(const Scene& scene, const Shape& shape, const std::string& subject,
+void explain_blending(const Shape& shape, const ShapePose& stands, const std::string& subject,
                       ExplainedRows& rows) {
-    if (shape.skin == kNone || scene.first_frame) return;
-    if (!shape.dual_palette.empty()) {
+    if (!stands.dual_palette.empty()) {
         rows.add(subject, "rotations are blended: a twist keeps its radius", "--skin dual");
         return;
     }
-    const double left = skin::narrowest(shape.skin_mesh, shape.palette);
+    const double left = skin::narrowest(shape.skin_mesh, stands.palette);
     rows.add(
         subject,
         fmt::format("matrices are blended: where it is narrowed most, {:.3g} of the radius is left "
@@ -47,7 +47,8 @@ std::string why_it_deforms(const Scene& scene, const Shape& shape) {
                         scene.options.influences
                             ? fmt::format("at most {}", scene.options.influences)
                             : std::string("all")));
-    if (shape.morph != kNone) add(fmt::format("a morph of {} targets", shape.morph_weights.size()));
+    if (shape.morph != kNone)
+        add(fmt::format("a morph of {} targets", chain_targets(*scene.description, shape.morph)));
     if (shape.vertex_work && shape.vertex_work->each_frame)
         add("its displacement reads what changes from frame to frame");
     return why;
@@ -61,15 +62,17 @@ std::string shown_node(const Scene& scene, uint32_t node) {
     return shown.empty() ? fmt::format("node {}", node) : shown;
 }
 
-void explain_meshes(const Scene& scene, ExplainedRows& rows) {
-    for (const Shape& shape : scene.shapes) {
+void explain_meshes(const Scene& scene, const Pose& pose, ExplainedRows& rows) {
+    for (size_t s = 0; s < scene.shapes.size(); ++s) {
+        const Shape& shape = scene.shapes[s];
         const bool moves = scene.nodes[shape.node].can_move;
         const std::string subject = shown_shape(scene, shape);
         switch (shape.kind) {
             case raytrace::GeometryKind::Deforming:
                 rows.add(subject, "deforms: vertices and tree are brought up to date each frame",
                          why_it_deforms(scene, shape));
-                explain_blending(scene, shape, subject, rows);
+                if (shape.skin != kNone && !pose.first_frame)
+                    explain_blending(shape, pose.shapes[s], subject, rows);
                 break;
             case raytrace::GeometryKind::Instanced:
                 if (moves)
@@ -92,7 +95,7 @@ void explain_meshes(const Scene& scene, ExplainedRows& rows) {
                        "--hide or --only");
 }
 
-void explain_animation(const Scene& scene, ExplainedRows& rows) {
+void explain_animation(const Scene& scene, const Pose&, ExplainedRows& rows) {
     const anim::Animation& animation = scene.description->animation;
     size_t writing = 0;
     for (size_t c = 0; c + 1 < animation.first_write.size(); ++c)

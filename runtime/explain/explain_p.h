@@ -24,11 +24,15 @@ class ExplainedRows {
 
 std::string shown_node(const Scene& scene, uint32_t node);
 
-void explain_meshes(const Scene& scene, ExplainedRows& rows);  // explain_motion.cpp
-void explain_animation(const Scene& scene, ExplainedRows& rows);
-void explain_shaders(const Scene& scene, ExplainedRows& rows);  // explain_shaders.cpp
-void explain_lights(const Scene& scene, ExplainedRows& rows);   // explain_lights.cpp
-void explain_passes(const Scene& scene, ExplainedRows& rows);   // explain_passes.cpp
-void explain_textures(const Scene& scene, ExplainedRows& rows);
+void explain_meshes(const Scene& scene, const Pose& pose,
+                    ExplainedRows& rows);  // explain_motion.cpp
+void explain_animation(const Scene& scene, const Pose& pose, ExplainedRows& rows);
+void explain_shaders(const Scene& scene, const Pose& pose,
+                     ExplainedRows& rows);  // explain_shaders.cpp
+void explain_lights(const Scene& scene, const Pose& pose,
+                    ExplainedRows& rows);  // explain_lights.cpp
+void explain_passes(const Scene& scene, const Pose& pose,
+                    ExplainedRows& rows);  // explain_passes.cpp
+void explain_textures(const Scene& scene, const Pose& pose, ExplainedRows& rows);
 
 }  // namespace kinora

@@ -71,7 +71,7 @@ constexpr PassRow kPasses[] = {
 
 }  // namespace
 
-void explain_passes(const Scene& scene, ExplainedRows& rows) {
+void explain_passes(const Scene& scene, const Pose&, ExplainedRows& rows) {
     for (const PassRow& pass : kPasses)
         if (pass.runs(scene))
             rows.add(pass.name, pass.what, pass.because);

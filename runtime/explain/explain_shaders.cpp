@@ -85,7 +85,7 @@ std::string image_name(const StoredImage& image) {
 
 }  // namespace
 
-void explain_shaders(const Scene& scene, ExplainedRows& rows) {
+void explain_shaders(const Scene& scene, const Pose&, ExplainedRows& rows) {
     std::set<std::string> worn;
     for (const auto& look : scene.shader_instances) {
         worn.insert(look->name);
@@ -101,7 +101,7 @@ void explain_shaders(const Scene& scene, ExplainedRows& rows) {
                        "no mesh that is shown wears them");
 }
 
-void explain_textures(const Scene& scene, ExplainedRows& rows) {
+void explain_textures(const Scene& scene, const Pose&, ExplainedRows& rows) {
     if (!scene.textures) return;
     bool module = false;
     scene.textures->each_image([&](const StoredImage& image) {

@@ -22,7 +22,8 @@ void add_levels(const raytrace::Film& film, std::vector<float>& levels) {
 
 }  // namespace
 
-double auto_exposure(Scene& scene, const FrameSettings& settings, Diagnostics& diagnostics) {
+double auto_exposure(const Scene& scene, Pose& pose, const FrameSettings& settings,
+                     Diagnostics& diagnostics) {
     FrameSettings trial = settings;
     double scale = double(kSide) / std::max({settings.width, settings.height, 1});
     trial.width = std::max(int(std::lround(settings.width * scale)), 1);
@@ -38,7 +39,7 @@ double auto_exposure(Scene& scene, const FrameSettings& settings, Diagnostics& d
     std::vector<float> levels;
     for (int t = 0; t < (length > 0 ? kTimes : 1); ++t) {
         double time = start + length * t / (kTimes - 1);
-        if (render_trial(scene, time, trial, film, diagnostics)) add_levels(film, levels);
+        if (render_trial(scene, pose, time, trial, film, diagnostics)) add_levels(film, levels);
     }
     if (levels.empty()) return 0;
     auto at = levels.begin() + ptrdiff_t(kShare * double(levels.size() - 1));

@@ -53,23 +53,25 @@ struct FrameSettings {
     raytrace::IntegratorSettings integrator;
 };
 
-// Renders the scene at a time into the film (linear, associated alpha). Findings: camera errors,
-// shader faults, non-finite results. False when the camera makes no picture, displaced meshes are
-// too coarse for it, or `progress` or `stop` stopped the frame. Allocates nothing once no new
-// kernel or texture is met.
-bool render_frame(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
-                  FrameStats& stats, Diagnostics& diagnostics,
+// Renders the scene at a time into the film (linear, associated alpha), in a pose that is new or
+// has stood at another time. Several poses of a scene may be rendered at once, each by one thread.
+// Findings: camera errors, shader faults, non-finite results. False when the camera makes no
+// picture, displaced meshes are too coarse for it, or `progress` or `stop` stopped the frame.
+// Allocates nothing once no new kernel or texture is met.
+bool render_frame(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
+                  raytrace::Film& film, FrameStats& stats, Diagnostics& diagnostics,
                   const raytrace::Progress* progress = nullptr);
 
 // The same picture for its brightness alone, before any of the scene's imager: what shaders print
 // and bake is dropped, and so is what they do wrong, which the frames tell. `shading`: what was
 // counted.
-bool render_trial(Scene& scene, double time, const FrameSettings& settings, raytrace::Film& film,
-                  Diagnostics& diagnostics, ShadingCounters* shading = nullptr);
+bool render_trial(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
+                  raytrace::Film& film, Diagnostics& diagnostics,
+                  ShadingCounters* shading = nullptr);
 
-// What render_frame does before the first ray: brings all that moves to the time. False when the
+// What render_frame does before the first ray: brings the pose to the time. False when the
 // camera makes no picture or displaced meshes are too coarse for it.
-bool pose_frame(Scene& scene, double time, const FrameSettings& settings, FrameStats& stats,
-                Diagnostics& diagnostics);
+bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
+                FrameStats& stats, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -11,6 +11,7 @@
 #include "runtime/description/findings.h"
 #include "runtime/frame/frame.h"
 #include "runtime/scene/camera.h"
+#include "runtime/scene/values.h"
 
 namespace kinora {
 
@@ -31,7 +32,8 @@ bool lights_of_formats(const Scene& scene) {
 
 enum class Look { Black, Lit, Nothing };
 
-Look look_of(Scene& scene, double time, int side, raytrace::Film& film, Diagnostics& diagnostics) {
+Look look_of(const Scene& scene, Pose& pose, double time, int side, raytrace::Film& film,
+             Diagnostics& diagnostics) {
     FrameSettings trial;
     double aspect = camera_aspect(scene).value_or(1.0);
     trial.width = std::max(int(std::lround(side * std::min(aspect, 1.0))), 1);
@@ -39,19 +41,19 @@ Look look_of(Scene& scene, double time, int side, raytrace::Film& film, Diagnost
     trial.integrator.samples_per_pixel = 1;
     trial.integrator.nan = raytrace::NanPolicy::Zero;
     ShadingCounters counted;
-    if (!render_trial(scene, time, trial, film, diagnostics, &counted) || counted.seen == 0)
+    if (!render_trial(scene, pose, time, trial, film, diagnostics, &counted) || counted.seen == 0)
         return Look::Nothing;
     bool lit = double(counted.dark) < (1 - kLit) * double(counted.seen);
     return lit ? Look::Lit : Look::Black;
 }
 
-bool is_black_throughout(Scene& scene, Diagnostics& diagnostics) {
+bool is_black_throughout(const Scene& scene, Pose& pose, Diagnostics& diagnostics) {
     raytrace::Film film;
     bool black = false;
     for (double time : played_times(scene)) {
         Look look = Look::Black;
         for (int side : kSides)
-            if (look != Look::Lit) look = look_of(scene, time, side, film, diagnostics);
+            if (look != Look::Lit) look = look_of(scene, pose, time, side, film, diagnostics);
         if (look == Look::Lit) return false;
         black |= look == Look::Black;
     }
@@ -59,23 +61,25 @@ bool is_black_throughout(Scene& scene, Diagnostics& diagnostics) {
 }
 
 // Light that is too dim to see counts as none: as what a grey world of that strength would show.
-bool is_black(Scene& scene, Diagnostics& diagnostics) {
+bool is_black(Scene& scene, Pose& pose, Diagnostics& diagnostics) {
     float world = std::exchange(scene.world_light, std::max(scene.world_light, kDim));
-    bool black = is_black_throughout(scene, diagnostics);
+    bool black = is_black_throughout(scene, pose, diagnostics);
     scene.world_light = world;
     return black;
 }
 
 }  // namespace
 
-bool light_black_scene(Scene& scene, Diagnostics& diagnostics) {
+bool light_black_scene(Scene& scene, Pose& pose, Diagnostics& diagnostics) {
     bool asked = scene.watch_dark > 0 && scene.options.decode_textures &&
                  has_default_lights(*scene.description) && lights_of_formats(scene);
-    if (!asked || !is_black(scene, diagnostics)) return true;
+    if (!asked || !is_black(scene, pose, diagnostics)) return true;
     const LightSource& first = scene.lights.front();
     diagnostics.report(Code::LIGHTS_BLACK, scene.description->lights[first.definition].where);
     if (!add_default_lights(scene, diagnostics)) return false;
-    scene.shading = std::make_unique<Shading>(scene);
+    take_added(scene, pose);
+    pose.watch_dark = scene.watch_dark;
+    pose.shading.reset();
     return true;
 }
 

@@ -9,7 +9,7 @@ namespace kinora {
 // sees black at each of the times that stand for the range played. Small pictures tell, so it
 // depends on the scene and its range alone; one of a lit scene is enough. Scenes stay as they are
 // whose lights the options name or are RSL, and under --color legacy. False when a shader cannot be
-// compiled.
-bool light_black_scene(Scene& scene, Diagnostics& diagnostics);
+// compiled. The small pictures are made in `pose`.
+bool light_black_scene(Scene& scene, Pose& pose, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -33,19 +33,22 @@ void Redicer::share(const Scene& first, const SourceFiles& texts) {
     options_.lights = first.options.lights;
 }
 
-std::unique_ptr<Scene> Redicer::build(const CloserView& view, Diagnostics& diagnostics,
-                                      const std::atomic<bool>* stop) const {
+PosedScene Redicer::build(const CloserView& view, Diagnostics& diagnostics,
+                          const std::atomic<bool>* stop) const {
     BuildAgain again{view, textures_, stop};
-    return build_scene(std::make_shared<SceneDescription>(description_), options_, diagnostics,
-                       &again);
+    PosedScene made;
+    made.scene = build_scene(std::make_shared<SceneDescription>(description_), options_,
+                             diagnostics, &again);
+    if (made) made.pose = std::make_unique<Pose>(*made.scene);
+    return made;
 }
 
-std::unique_ptr<Scene> Redicer::make(const CloserView& view, Diagnostics& diagnostics) {
+PosedScene Redicer::make(const CloserView& view, Diagnostics& diagnostics) {
     size_t known = diagnostics.findings().size();
-    std::unique_ptr<Scene> scene = build(view, diagnostics, nullptr);
+    PosedScene made = build(view, diagnostics, nullptr);
     diagnostics.drop_repeats(known);
-    if (scene) scene->points = points_;
-    return scene;
+    if (made) made.scene->points = points_;
+    return made;
 }
 
 void Redicer::start(const CloserView& view) {
@@ -55,13 +58,13 @@ void Redicer::start(const CloserView& view) {
     thread_ = std::thread([this, view] {
         SerialScope serial;
         try {
-            scene_ = build(view, *findings_, &stop_);
-            if (scene_ && !stop_) {
+            made_ = build(view, *findings_, &stop_);
+            if (made_ && !stop_) {
                 FrameSettings settings;
-                settings.width = scene_->view.width;
-                settings.height = scene_->view.height;
+                settings.width = made_.scene->start.view.width;
+                settings.height = made_.scene->start.view.height;
                 FrameStats stats;
-                pose_frame(*scene_, view.time, settings, stats, *findings_);
+                pose_frame(*made_.scene, *made_.pose, view.time, settings, stats, *findings_);
             }
         } catch (...) {
             failure_ = std::current_exception();
@@ -74,14 +77,14 @@ void Redicer::give_up() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
     stop_ = done_ = false;
-    scene_.reset();
+    made_ = {};
     failure_ = nullptr;
 }
 
-std::unique_ptr<Scene> Redicer::take(Diagnostics& diagnostics) {
-    if (!thread_.joinable()) return nullptr;
+PosedScene Redicer::take(Diagnostics& diagnostics) {
+    if (!thread_.joinable()) return {};
     thread_.join();
-    std::unique_ptr<Scene> scene = std::move(scene_);
+    PosedScene made = std::move(made_);
     std::exception_ptr failure = failure_;
     give_up();
     if (failure) std::rethrow_exception(failure);
@@ -96,8 +99,8 @@ std::unique_ptr<Scene> Redicer::take(Diagnostics& diagnostics) {
         told.notes = finding.notes;
     }
     diagnostics.drop_repeats(known);
-    if (scene) scene->points = points_;  // from here on no other scene looks anything up
-    return scene;
+    if (made) made.scene->points = points_;  // from here on no other scene looks anything up
+    return made;
 }
 
 }  // namespace kinora

@@ -34,22 +34,22 @@ class Redicer {
     // shared with those to come.
     void share(const Scene& first, const SourceFiles& texts);
 
-    // Builds here and now, with all threads. Null where the scene cannot be built. Findings that
+    // Builds here and now, with all threads. Nothing where the scene cannot be built. Findings that
     // `diagnostics` has already are not told again.
-    std::unique_ptr<Scene> make(const CloserView& view, Diagnostics& diagnostics);
+    PosedScene make(const CloserView& view, Diagnostics& diagnostics);
 
     // Builds on a thread of its own, up to the point where a frame at the view's time can begin,
     // while other scenes render; what was under way is given up.
     void start(const CloserView& view);
     bool running() const { return thread_.joinable(); }  // started and not taken
     bool ready() const { return done_; }                 // take() will not wait
-    // What start() was asked for; waits for it. Null where nothing was started or could be built.
-    // Throws what building threw (std::bad_alloc).
-    std::unique_ptr<Scene> take(Diagnostics& diagnostics);
+    // What start() was asked for; waits for it. Nothing where nothing was started or could be
+    // built. Throws what building threw (std::bad_alloc).
+    PosedScene take(Diagnostics& diagnostics);
 
   private:
-    std::unique_ptr<Scene> build(const CloserView& view, Diagnostics& diagnostics,
-                                 const std::atomic<bool>* stop) const;
+    PosedScene build(const CloserView& view, Diagnostics& diagnostics,
+                     const std::atomic<bool>* stop) const;
     void give_up();
 
     SceneDescription description_;
@@ -61,7 +61,7 @@ class Redicer {
     // Of the thread; read by others once `done_` is set or it was joined.
     std::thread thread_;
     std::atomic<bool> done_{false}, stop_{false};
-    std::unique_ptr<Scene> scene_;
+    PosedScene made_;
     std::unique_ptr<Diagnostics> findings_;
     std::exception_ptr failure_;
 };

@@ -38,17 +38,18 @@ const char* status_text(raytrace::CameraStatus status) {
 
 }  // namespace
 
-bool report_camera(const Scene& scene, raytrace::CameraStatus status, Diagnostics& diagnostics) {
-    const CameraSource& source = scene.cameras[scene.camera];
+bool report_camera(const Scene& scene, const Pose& pose, raytrace::CameraStatus status,
+                   Diagnostics& diagnostics) {
+    const CameraSource& source = scene.cameras[pose.camera];
     const CameraDefinition& camera = scene.description->cameras[source.definition];
     if (!raytrace::is_error(status)) {
-        if (scene.first_frame && status == raytrace::CameraStatus::ClipRangeRepaired &&
+        if (pose.first_frame && status == raytrace::CameraStatus::ClipRangeRepaired &&
             camera.znear.present() && camera.zfar.present())
             diagnostics.report(Code::CAMERA_CLIP, camera.where, source.name);
-        double distance = glm::length(scene.view.eye);
-        if (scene.first_frame && distance > kFarSizes * scene.size)
+        double distance = glm::length(pose.view.eye);
+        if (pose.first_frame && distance > kFarSizes * scene.size)
             diagnostics.report(Code::SCENE_FAR, camera.where, distance);
-        if (scene.first_frame && !(scene.size >= kLeastSize && scene.size <= kMostSize))
+        if (pose.first_frame && !(scene.size >= kLeastSize && scene.size <= kMostSize))
             diagnostics.report(Code::SCENE_SIZE, Location{}, scene.size);
         return true;
     }
@@ -77,21 +78,26 @@ void report_non_finite(uint64_t count, std::string_view name, const ShaderInstan
 
 }  // namespace
 
-void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnostics& diagnostics) {
-    for (Node& node : scene.nodes) {
-        if (scene.all_finite) break;
-        if (!node.finite && !node.told) report_singular(scene, node, diagnostics);
-        node.told |= !node.finite;
+void report_geometry(const Scene& scene, Pose& pose, const raytrace::AccelUpdate& update,
+                     Diagnostics& diagnostics) {
+    std::vector<bool>& reported = pose.reported.nodes;
+    reported.resize(scene.nodes.size());
+    for (size_t n = 0; n < scene.nodes.size() && !pose.all_finite; ++n) {
+        if (pose.nodes[n].finite || reported[n]) continue;
+        report_singular(scene, scene.nodes[n], diagnostics);
+        reported[n] = true;
     }
     auto singular = [&](const Shape& shape) {
-        if (scene.nodes[shape.node].finite)
+        if (pose.nodes[shape.node].finite)
             report_singular(scene, scene.nodes[shape.node], diagnostics);
     };
-    if (scene.first_frame)
-        for (const Shape& shape : scene.shapes)  // those that move are the ray tracer's to tell
-            if (shape.kind == raytrace::GeometryKind::Static && is_singular(shape)) singular(shape);
+    if (pose.first_frame)
+        for (size_t s = 0; s < scene.shapes.size(); ++s)  // the ray tracer reports those that move
+            if (scene.shapes[s].kind == raytrace::GeometryKind::Static &&
+                is_singular(pose.shapes[s]))
+                singular(scene.shapes[s]);
     for (const auto& issue : update.issues) {
-        if (!scene.told_issues.insert({issue.geometry, issue.issue}).second) continue;
+        if (!pose.reported.issues.insert({issue.geometry, issue.issue}).second) continue;
         const Shape& shape = scene.shapes[scene.surfaces[issue.geometry].shape];
         const MeshDefinition& mesh = mesh_of(scene, shape);
         switch (issue.issue) {
@@ -116,7 +122,7 @@ void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostic
     if (bad) report_non_finite(bad, imager->shader().name, imager, diagnostics);
 }
 
-void report_shading(Scene& scene, const ShadingCounters& shading,
+void report_shading(const Scene& scene, Pose& pose, const ShadingCounters& shading,
                     const raytrace::IntegratorCounters& counters,
                     const raytrace::IntegratorSettings& settings, FrameStats& stats,
                     Diagnostics& diagnostics) {
@@ -126,9 +132,9 @@ void report_shading(Scene& scene, const ShadingCounters& shading,
     if (shading.out_of_rays)
         diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
                            scene.options.ray_limit);
-    if (scene.watch_dark > 0) --scene.watch_dark;
+    if (pose.watch_dark > 0) --pose.watch_dark;
     if (shading.dark > shading.seen / 2) {
-        scene.watch_dark = 0;
+        pose.watch_dark = 0;
         diagnostics.report(Code::LIGHTS_DARK, Location{});
     }
     scene.textures->report(diagnostics);

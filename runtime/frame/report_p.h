@@ -11,10 +11,12 @@ namespace kinora {
 
 // False, with a finding, when the camera makes no picture; hints about its range in the first
 // frame.
-bool report_camera(const Scene& scene, raytrace::CameraStatus status, Diagnostics& diagnostics);
+bool report_camera(const Scene& scene, const Pose& pose, raytrace::CameraStatus status,
+                   Diagnostics& diagnostics);
 
 // Singular nodes and broken meshes, in the first frame that has them.
-void report_geometry(Scene& scene, const raytrace::AccelUpdate& update, Diagnostics& diagnostics);
+void report_geometry(const Scene& scene, Pose& pose, const raytrace::AccelUpdate& update,
+                     Diagnostics& diagnostics);
 
 const MeshDefinition& mesh_of(const Scene& scene, const Shape& shape);
 
@@ -22,7 +24,7 @@ const MeshDefinition& mesh_of(const Scene& scene, const Shape& shape);
 void report_imager(const Scene& scene, size_t bad, FrameStats& stats, Diagnostics& diagnostics);
 
 // After all tiles: fills `stats` from the counters and reports limits that were met.
-void report_shading(Scene& scene, const ShadingCounters& shading,
+void report_shading(const Scene& scene, Pose& pose, const ShadingCounters& shading,
                     const raytrace::IntegratorCounters& counters,
                     const raytrace::IntegratorSettings& settings, FrameStats& stats,
                     Diagnostics& diagnostics);

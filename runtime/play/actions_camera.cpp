@@ -75,8 +75,8 @@ CommandResult action_pivot(PlayerCore& core, const Arguments& a) {
     int x = int(a.number(0)), y = int(a.number(1));
     ViewOrder order = core.view_order();
     core.ask({[&core, x, y, order](ShownScene& scene) -> Answer {
-                  PickedPixel picked =
-                      pick_pixel(scene.seen(), x, y, order.width, order.height, nullptr);
+                  PickedPixel picked = pick_pixel(scene.seen(), scene.seen_pose(), x, y,
+                                                  order.width, order.height, nullptr);
                   return [&core, picked] {
                       if (!picked.hit || !core.state.camera.free) return;
                       FreeCamera& camera = core.state.camera.own;
@@ -102,7 +102,8 @@ CommandResult action_frame_selection(PlayerCore& core, const Arguments&) {
     if (node.empty()) return refused("no node is selected");
     if (!core.own_camera(why_not)) return refused(why_not);
     core.ask({[&core, node](ShownScene& scene) -> Answer {
-                  auto [low, high] = box_of(scene.seen(), find_node(scene.seen(), node));
+                  auto [low, high] =
+                      box_of(scene.seen(), scene.seen_pose(), find_node(scene.seen(), node));
                   return [&core, low = low, high = high] {
                       if (core.state.camera.free && low.x <= high.x)
                           frame_box(core.state.camera.own, low, high, aspect_of(core));

@@ -14,8 +14,9 @@ std::shared_ptr<const PixelStory> story_of(ShownScene& scene, const ViewOrder& o
                                            int y) {
     PlacedCamera placed;
     FrameSettings settings = refined_settings(scene, order, placed);
-    auto story = std::make_shared<PixelStory>(pixel_story(
-        scene.seen(), time_of(scene, order), settings, scene.diagnostics->files, x, y, 0));
+    auto story = std::make_shared<PixelStory>(pixel_story(scene.seen(), scene.seen_pose(),
+                                                          time_of(scene, order), settings,
+                                                          scene.diagnostics->files, x, y, 0));
     story->frame = order.frame;
     return story;
 }

@@ -51,8 +51,8 @@ CommandResult action_click(PlayerCore& core, const Arguments& a) {
     ViewOrder order = core.view_order();
     auto picture = [&core] { return core.loop.picture(); };
     core.ask({[&core, x, y, order, picture](ShownScene& scene) -> Answer {
-                  PickedPixel picked =
-                      pick_pixel(scene.seen(), x, y, order.width, order.height, picture().get());
+                  PickedPixel picked = pick_pixel(scene.seen(), scene.seen_pose(), x, y,
+                                                  order.width, order.height, picture().get());
                   auto story = picked.hit ? story_of(scene, order, x, y) : nullptr;
                   return [&core, picked, story] {
                       core.state.selection.node = picked.node;

@@ -262,9 +262,8 @@ bool PlayerCore::picture_ready(const Awaited& of) const {
 
 // What a new scene begins with instead of its own beginning.
 void PlayerCore::take_session(const Session& taken, const ShownScene& shown) {
-    Scene& scene = *shown.scene;
-    choose_camera(scene, taken.camera);
-    state.camera.index = scene.camera;
+    choose_camera(*shown.scene, *shown.pose, taken.camera);
+    state.camera.index = shown.pose->camera;
     if (taken.camera.own) {
         state.camera.own = *taken.camera.own;
         state.camera.free = true;
@@ -395,7 +394,7 @@ void PlayerCore::explain_scene() {
         if (word.starts_with("--quality=")) preset = word.substr(word.find('=') + 1);
     loop.ask({[this, preset](ShownScene& shown) -> Answer {
                   auto rows = std::make_shared<const std::vector<Explained>>(
-                      explain(*shown.scene, shown.request.quality, preset));
+                      explain(*shown.scene, *shown.pose, shown.request.quality, preset));
                   return [this, rows] { state.explained = rows; };
               },
               false});

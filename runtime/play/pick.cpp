@@ -18,9 +18,10 @@ struct Hit {
 };
 
 // The surface's normal at the hit, in world space: of its corners where it has such.
-dvec3 normal_at(const Scene& scene, const Hit& hit, dvec3 Ng) {
+dvec3 normal_at(const Scene& scene, const Pose& pose, const Hit& hit, dvec3 Ng) {
     const Surface& surface = scene.surfaces[hit.row];
     const Shape& shape = scene.shapes[surface.shape];
+    const ShapePose& stands = pose.shapes[surface.shape];
     const MeshGroup& group = scene.meshes[shape.mesh].groups[surface.group];
     size_t first = 3 * size_t(hit.primitive);
     if (first + 3 > group.normal_corners.size()) return Ng;
@@ -28,11 +29,11 @@ dvec3 normal_at(const Scene& scene, const Hit& hit, dvec3 Ng) {
     dvec3 N(0.0);
     for (size_t k = 0; k < 3; ++k) {
         uint32_t corner = group.normal_corners[first + k];
-        if (corner >= shape.rest_normals.size()) return Ng;
-        N += weight[k] * dvec3(vec3(shape.rest_normals[corner]));
+        if (corner >= stands.shown_normals.size()) return Ng;
+        N += weight[k] * dvec3(vec3(stands.shown_normals[corner]));
     }
     if (shape.kind == raytrace::GeometryKind::Instanced)
-        N = glm::transpose(glm::inverse(dmat3(shape.world))) * N;
+        N = glm::transpose(glm::inverse(dmat3(stands.world))) * N;
     double length = glm::length(N);
     if (!(length > 0)) return Ng;
     return glm::dot(N, Ng) < 0 ? -N / length : N / length;
@@ -76,14 +77,14 @@ vec4 color_at(const Picture* picture, int x, int y) {
 
 }  // namespace
 
-PickedPixel pick_pixel(const Scene& scene, int x, int y, int width, int height,
+PickedPixel pick_pixel(const Scene& scene, const Pose& pose, int x, int y, int width, int height,
                        const Picture* picture) {
     PickedPixel picked;
     picked.x = x;
     picked.y = y;
     if (x < 0 || y < 0 || x >= width || y >= height) return picked;
     picked.color = color_at(picture, x, y);
-    const raytrace::Camera& camera = scene.view;
+    const raytrace::Camera& camera = pose.view;
     if (camera.width < 1 || camera.height < 1) return picked;
     raytrace::CameraRay ray = raytrace::camera_ray(camera, (x + 0.5) * camera.width / width,
                                                    (y + 0.5) * camera.height / height);
@@ -96,14 +97,14 @@ PickedPixel pick_pixel(const Scene& scene, int x, int y, int width, int height,
     rays.tnear[0] = ray.tnear;
     rays.tfar[0] = ray.tfar;
     rays.mask[0] = raytrace::kMaskAll | raytrace::kMaskCamera;
-    if ((scene.accel.intersect16(rays, hits, counters) & 1) == 0) return picked;
+    if ((pose.accel.intersect16(rays, hits, counters) & 1) == 0) return picked;
     picked.hit = true;
     Hit hit{hits.instance[0], hits.primitive[0], hits.u[0], hits.v[0]};
-    raytrace::SurfacePoint point = scene.accel.surface_point(hit.row, hit.primitive, hit.u, hit.v);
+    raytrace::SurfacePoint point = pose.accel.surface_point(hit.row, hit.primitive, hit.u, hit.v);
     dvec3 Ng(point.Ng), direction(ray.dir);
     if (glm::dot(Ng, direction) > 0) Ng = -Ng;
     picked.P = scene.origin + dvec3(point.p);
-    picked.N = normal_at(scene, hit, Ng);
+    picked.N = normal_at(scene, pose, hit, Ng);
     picked.distance = double(hits.t[0]);
     dvec2 uv = uv_at(scene, hit);
     picked.u = uv.x;

@@ -11,9 +11,9 @@
 
 namespace kinora {
 
-// By a ray through the pixel's center, of the scene as the last frame has left it; the pixel is one
+// By a ray through the pixel's center, of the pose as the last frame has left it; the pixel is one
 // of a picture of that width and height, of which `picture` (if it is there) gives the color.
-PickedPixel pick_pixel(const Scene& scene, int x, int y, int width, int height,
+PickedPixel pick_pixel(const Scene& scene, const Pose& pose, int x, int y, int width, int height,
                        const Picture* picture);
 
 // How the first sample of the pixel in the refined picture came by its color. On the thread of the

@@ -256,7 +256,7 @@ void RenderLoop::run() {
         std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
         lock.unlock();
         for (SwappedShaders& shaders : swaps) {
-            apply_swap(*step->scene->scene, std::move(shaders.swap));
+            apply_swap(*step->scene->scene, *step->scene->pose, std::move(shaders.swap));
             step->scene->diagnostics->files = std::move(shaders.files);
             memory_->filtered.reset();
         }
@@ -450,9 +450,9 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         if (filters) {
             StageTimer timer(filter);
             const bool known = memory_->first.places;
-            memory_->noisy =
-                known ? memory_->denoiser.filter(*step.scene->scene, memory_->first, to->film)
-                      : memory_->first.any_noise();
+            memory_->noisy = known ? memory_->denoiser.filter(*step.scene->scene, *step.scene->pose,
+                                                              memory_->first, to->film)
+                                   : memory_->first.any_noise();
         }
         Stopwatch present;
         to->scale = step.scale;
@@ -487,13 +487,15 @@ void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
         pacer.add(times.total, fixed, memory_->guide_ms);
 }
 
-bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
+bool RenderLoop::render(const Step& step, bool closer, FrameSettings settings, Picture& to,
                         FrameStats& stats) {
-    Diagnostics& diagnostics = *step.scene->diagnostics;
-    scene.camera = step.scene->scene->camera;
-    step.scene->posed = &scene;
-    bool whole = render_frame(scene, seconds_of(step.scene->rate, step.order.frame), settings,
-                              to.film, stats, diagnostics);
+    ShownScene& shown = *step.scene;
+    Diagnostics& diagnostics = *shown.diagnostics;
+    shown.shows_closer = closer;
+    shown.seen_pose().camera = shown.pose->camera;
+    bool whole =
+        render_frame(shown.seen(), shown.seen_pose(), seconds_of(shown.rate, step.order.frame),
+                     settings, to.film, stats, diagnostics);
     std::vector<FindingText> found = kinora::take_findings(diagnostics);
     if (!found.empty()) {
         std::lock_guard lock(mutex_);
@@ -506,17 +508,17 @@ bool RenderLoop::render(const Step& step, Scene& scene, FrameSettings settings, 
 void RenderLoop::dice_closer(const Step& step, const FrameSettings& settings, bool exact) {
     ShownScene& shown = *step.scene;
     CloserView view{seconds_of(shown.rate, step.order.frame), {}};
-    if (settings.camera) view.camera = shown.seen().view;
+    if (settings.camera) view.camera = shown.seen_pose().view;
     shown.redicer->start(view);
     memory_->dices_for.reset();
     if (exact) memory_->dices_for = step.order;
 }
 
 void RenderLoop::take_closer(ShownScene& shown) {
-    std::unique_ptr<Scene> closer = shown.redicer->take(*shown.diagnostics);
+    PosedScene closer = shown.redicer->take(*shown.diagnostics);
     shown.closer_view.reset();
     if (!closer) return;
-    if (shown.posed == shown.closer.get()) shown.posed = nullptr;
+    shown.shows_closer = false;
     shown.closer = std::move(closer);
     shown.closer_view = memory_->dices_for;
 }
@@ -527,10 +529,10 @@ bool RenderLoop::render_quick(const Step& step, const FrameSettings& settings, P
     ShownScene& shown = *step.scene;
     const bool dices = real_time_ && shown.redicer;
     if (dices && shown.redicer->running() && shown.redicer->ready()) take_closer(shown);
-    Scene& scene = dices && shown.closer ? *shown.closer : *shown.scene;
-    const bool whole = render(step, scene, settings, to, stats);
+    const bool closer = dices && shown.closer;
+    const bool whole = render(step, closer, settings, to, stats);
     // In edges of the scene as loaded: the closer one may have had to be coarser.
-    const double error = stats.dice_error * scene.dice.pixels / shown.scene->dice.pixels;
+    const double error = stats.dice_error * shown.seen().dice.pixels / shown.scene->dice.pixels;
     const bool known = shown.closer_view && shown.closer_view->same_picture(step.order);
     if (dices && whole && error > kMostDiceError && !known && !shown.redicer->running())
         dice_closer(step, settings, step.scale == 1);
@@ -544,7 +546,7 @@ bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings,
     ShownScene& shown = *step.scene;
     FrameSettings fine = settings;
     fine.most_dice_error = shown.redicer ? kMostDiceError : 0;
-    if (render(step, *shown.scene, fine, to, stats)) return true;
+    if (render(step, false, fine, to, stats)) return true;
     if (!stats.too_coarse || stop_) return false;
     const double pixels = stats.dice_error * shown.scene->dice.pixels;
     const auto is_this = [&](const std::optional<ViewOrder>& view) {
@@ -556,16 +558,17 @@ bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings,
         while (!shown.redicer->ready() && !stop_)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (stop_) return false;  // it goes on; the next start() may give it up
-        shown.closer.reset();
+        shown.shows_closer = false;
+        shown.closer = {};
         take_closer(shown);
     }
     if (shown.closer) {
-        fine.most_dice_error = pixels / shown.closer->dice.pixels;
-        if (render(step, *shown.closer, fine, to, stats)) return true;
+        fine.most_dice_error = pixels / shown.closer.scene->dice.pixels;
+        if (render(step, true, fine, to, stats)) return true;
         if (stop_) return false;
     }
     fine.most_dice_error = 0;
-    return render(step, *shown.scene, fine, to, stats);
+    return render(step, false, fine, to, stats);
 }
 
 // The refined picture never is, nor those that no clock hurries.
@@ -578,16 +581,16 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     to.width = step.order.width;
     to.height = step.order.height;
     to.frame = step.order.frame;
-    const Scene& scene = step.scene->seen();
-    to.view = scene.view;
-    to.origin = scene.origin;
+    const Pose& pose = step.scene->seen_pose();
+    to.view = pose.view;
+    to.origin = step.scene->seen().origin;
     const bool small = to.film.width != to.width || to.film.height != to.height;
     if (shows_guide(step.display.aov))
-        make_guide(scene, to.width, to.height, to.guide);
+        make_guide(pose, to.width, to.height, to.guide);
     else if (small && (to.film.width >= Pacer::kNeedsGuide * to.width || step.first))
         take_guide(memory_->first, to.view, to.guide);
     else if (small)
-        guide_small(scene, to);
+        guide_small(pose, to);
     else
         to.guide = {};
     show_picture(step.display, memory_->enlarged, to);
@@ -595,10 +598,10 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
 
 // Rays say where the edges are, beside those that the film's own hits show: a quarter as many as
 // pixels shown, at most.
-void RenderLoop::guide_small(const Scene& scene, Picture& to) {
+void RenderLoop::guide_small(const Pose& pose, Picture& to) {
     StageTimer timer(memory_->guide_ms);
     take_guide(memory_->first, to.view, memory_->hits);
-    refine_guide(scene, memory_->hits, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
+    refine_guide(pose, memory_->hits, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
 }
 
 void RenderLoop::answer(const Step& step) {

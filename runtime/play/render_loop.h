@@ -90,7 +90,7 @@ class RenderLoop {
     void finish(const Step& step, const Outcome& outcome);
     Outcome make(const Step& step);
     void pace(const StageTimes& times, bool whole, double fixed);
-    bool render(const Step& step, Scene& scene, FrameSettings settings, Picture& to,
+    bool render(const Step& step, bool closer, FrameSettings settings, Picture& to,
                 FrameStats& stats);
     bool render_quick(const Step& step, const FrameSettings& settings, Picture& to,
                       FrameStats& stats);
@@ -100,7 +100,7 @@ class RenderLoop {
                         FrameStats& stats);
     bool is_filtered(const Step& step) const;
     void finish_picture(const Step& step, Picture& to);
-    void guide_small(const Scene& scene, Picture& to);
+    void guide_small(const Pose& pose, Picture& to);
     void redisplay(const Step& step);
     void answer(const Step& step);
     std::shared_ptr<Picture> free_picture();

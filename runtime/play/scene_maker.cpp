@@ -347,12 +347,13 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
         swapper_.emplace(*built.scene, std::move(edited), read_.scene->description.values.size());
     shaders_ = std::move(shaders);
     shown.scene = std::move(built.scene);
+    shown.pose = std::move(built.pose);
     textures_ = shown.scene->textures;
     preload_named_pictures(*shown.scene->description, *textures_);
     shown.scene->textures->each_image(
         [&](const StoredImage& image) { shown.files.push_back(image.file); });
     shown.redicer = std::move(built.redicer);
-    shown.settings = frame_settings(read_.request, *shown.scene, diagnostics);
+    shown.settings = frame_settings(read_.request, *shown.scene, *shown.pose, diagnostics);
     auto info = scene_info(*shown.scene, {read_.scene->description, read_.texts}, read_.request,
                            shown.rate);
     for (MaterialInfo& material : info->materials)
@@ -370,7 +371,7 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
 // So that no frame waits for the trees of many triangles.
 void SceneMaker::pose(ShownScene& shown) const {
     FrameStats stats;
-    pose_frame(*shown.scene, shown.scene->options.start_time, shown.settings, stats,
+    pose_frame(*shown.scene, *shown.pose, shown.scene->options.start_time, shown.settings, stats,
                *shown.diagnostics);
 }
 

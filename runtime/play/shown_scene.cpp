@@ -166,7 +166,7 @@ std::vector<MaterialInfo> material_infos(const Scene& scene, const SceneRead& re
         info.shader = place.use->shader->name;
         for (const rsl::ShaderParameter& parameter : place.use->shader->parameters)
             info.params.push_back(
-                param_info(*scene.description, scene.values, *place.use, parameter));
+                param_info(*scene.description, scene.start.values, *place.use, parameter));
         if (const rsl::Shader* shader = as_read(read.description, further, place, k, materials))
             info.source = std::make_shared<const ShaderSourceText>(source_of(*shader, read.files));
     }
@@ -245,7 +245,7 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
     info->low = scene.low;
     info->high = scene.high;
     for (const CameraSource& camera : scene.cameras) info->cameras.push_back(camera.name);
-    info->camera = scene.camera;
+    info->camera = scene.start.camera;
     info->lights = light_names(scene);
     for (const ClipDefinition& clip : description.clips)
         info->clips.push_back(

@@ -28,12 +28,13 @@ struct ShownScene {
     SceneEdits edits;
     FrameRate rate;
     std::unique_ptr<Scene> scene;           // null: it could not be made; `findings` say why
+    std::unique_ptr<Pose> pose;             // of the scene, that its pictures are made in
     std::optional<SwappedShaders> swapped;  // in place of a scene
     std::unique_ptr<Redicer> redicer;       // null where nothing is diced
-    std::unique_ptr<Scene> closer;          // with displaced meshes diced for a nearer view
-    std::optional<ViewOrder> closer_view;   // the picture that it was diced for; none: a smaller one
-    Scene* posed = nullptr;                 // the one of both that made the last picture
-    FrameSettings settings;                 // as kinora-render has them for the request
+    PosedScene closer;                      // with displaced meshes diced for a nearer view
+    std::optional<ViewOrder> closer_view;  // the picture that it was diced for; none: a smaller one
+    bool shows_closer = false;             // which made the last picture
+    FrameSettings settings;                // as kinora-render has them for the request
     std::shared_ptr<const SceneInfo> info;
     std::unique_ptr<Diagnostics> diagnostics;  // findings to come
     std::vector<FindingText> findings;         // of reading and building
@@ -43,7 +44,9 @@ struct ShownScene {
     bool replaces_camera = true;               // another scene, not the same one changed
     bool finer = false;                        // the one shown, with what is displaced diced finer
 
-    Scene& seen() const { return posed ? *posed : *scene; }
+    // What made the last picture.
+    const Scene& seen() const { return shows_closer ? *closer.scene : *scene; }
+    Pose& seen_pose() const { return shows_closer ? *closer.pose : *pose; }
 };
 
 FindingText finding_text(const Finding& finding, const SourceFiles& files);

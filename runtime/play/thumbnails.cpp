@@ -38,7 +38,7 @@ SceneRequest small_request_of(const ThumbnailOrder& order) {
 
 // Looked at as the picture does, and as near as the object's box allows.
 FreeCamera camera_for(ShownScene& shown, const ViewOrder& view, const std::string& node) {
-    auto [low, high] = box_of(*shown.scene, find_node(*shown.scene, node));
+    auto [low, high] = box_of(*shown.scene, *shown.pose, find_node(*shown.scene, node));
     if (!(low.x <= high.x)) low = shown.scene->low, high = shown.scene->high;
     FreeCamera camera;
     if (view.camera)
@@ -155,23 +155,29 @@ void Thumbnails::make(const ThumbnailOrder& order) {
         const SceneEdits edits = edits_with_text(
             order.edits, {order.material, name + ".sl", std::string(library_shader_text(name))});
         if (!apply_edits(dressed, edits, small, *shown.diagnostics)) continue;
-        shown.scene = build_imported(std::move(dressed), *shown.diagnostics).scene;
+        BuiltScene built = build_imported(std::move(dressed), *shown.diagnostics);
+        shown.scene = std::move(built.scene);
+        shown.pose = std::move(built.pose);
         if (!shown.scene) continue;
-        shown.settings = frame_settings(small, *shown.scene, *shown.diagnostics, &stop_);
+        shown.settings =
+            frame_settings(small, *shown.scene, *shown.pose, *shown.diagnostics, &stop_);
         ViewOrder view = order.view;
         view.width = kWidth;
         view.height = kHeight;
         view.only_light = kNone;
         const double time = time_of(shown, view);
         FrameStats stats;
-        if (!pose_frame(*shown.scene, time, shown.settings, stats, *shown.diagnostics)) continue;
+        if (!pose_frame(*shown.scene, *shown.pose, time, shown.settings, stats, *shown.diagnostics))
+            continue;
         view.camera = camera_for(shown, view, order.node);
         view.follow.reset();
         PlacedCamera placed;
         FrameSettings settings = refined_settings(shown, view, placed);
         settings.stop = &stop_;
         raytrace::Film film;
-        if (!render_frame(*shown.scene, time, settings, film, stats, *shown.diagnostics)) continue;
+        if (!render_frame(*shown.scene, *shown.pose, time, settings, film, stats,
+                          *shown.diagnostics))
+            continue;
         auto made = std::make_shared<Thumbnail>();
         made->shader = name;
         made->width = film.width;

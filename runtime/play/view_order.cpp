@@ -20,20 +20,22 @@ bool ViewOrder::same_picture(const ViewOrder& o) const {
         camera.has_value() == o.camera.has_value() &&
         (camera ? camera_key(*camera) == camera_key(*o.camera) : camera_index == o.camera_index);
     return same_camera && follow == o.follow && frame == o.frame && width == o.width &&
-           height == o.height && exposure == o.exposure && only_light == o.only_light && filter == o.filter;
+           height == o.height && exposure == o.exposure && only_light == o.only_light &&
+           filter == o.filter;
 }
 
 std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {
-    Scene& scene = *shown.scene;
-    evaluate(scene, seconds_of(shown.rate, order.frame));
-    update_transforms(scene);
-    if (order.camera_index < scene.cameras.size()) scene.camera = order.camera_index;
-    if (raytrace::is_error(set_view(scene, order.width, order.height))) return std::nullopt;
-    return scene.view;
+    const Scene& scene = *shown.scene;
+    Pose& pose = *shown.pose;
+    evaluate(scene, pose, seconds_of(shown.rate, order.frame));
+    update_transforms(scene, pose);
+    if (order.camera_index < scene.cameras.size()) pose.camera = order.camera_index;
+    if (raytrace::is_error(set_view(scene, pose, order.width, order.height))) return std::nullopt;
+    return pose.view;
 }
 
 std::optional<dvec3> place_of(ShownScene& shown, const std::string& node, double frame) {
-    return place_at(*shown.scene, node, seconds_of(shown.rate, frame));
+    return place_at(*shown.scene, *shown.pose, node, seconds_of(shown.rate, frame));
 }
 
 double time_of(const ShownScene& shown, const ViewOrder& order) {
@@ -49,10 +51,11 @@ FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, Placed
         settings.insight.only_light = order.only_light;
     settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
     if (order.camera) {
-        placed = placed_camera(*shown.scene, *order.camera, order.follow, time_of(shown, order));
+        placed = placed_camera(*shown.scene, *shown.pose, *order.camera, order.follow,
+                               time_of(shown, order));
         settings.camera = &placed;
     } else if (order.camera_index < shown.scene->cameras.size()) {
-        shown.scene->camera = order.camera_index;
+        shown.pose->camera = order.camera_index;
     }
     return settings;
 }

@@ -10,12 +10,12 @@ namespace kinora {
 
 namespace {
 
-raytrace::CameraOptics optics_of(const Scene& scene) {
+raytrace::CameraOptics optics_of(const Scene& scene, const Pose& pose) {
     const CameraDefinition& camera =
-        scene.description->cameras[scene.cameras[scene.camera].definition];
+        scene.description->cameras[scene.cameras[pose.camera].definition];
     auto value = [&](ValueSlot slot) -> std::optional<double> {
         if (!slot.present()) return std::nullopt;
-        return scene.values[slot.offset];
+        return pose.values[slot.offset];
     };
     raytrace::CameraOptics optics;
     optics.orthographic = camera.orthographic;
@@ -23,7 +23,7 @@ raytrace::CameraOptics optics_of(const Scene& scene) {
     optics.y = value(camera.y);
     optics.aspect = value(camera.aspect);
     // Lengths are in units of the camera's file.
-    double unit = unit_of(path_conversion(scene, scene.cameras[scene.camera].node));
+    double unit = unit_of(path_conversion(scene, scene.cameras[pose.camera].node));
     if (camera.orthographic && optics.x) *optics.x *= unit;
     if (camera.orthographic && optics.y) *optics.y *= unit;
     optics.znear = value(camera.znear).value_or(0.0);
@@ -37,35 +37,36 @@ raytrace::CameraOptics optics_of(const Scene& scene) {
 
 }  // namespace
 
-raytrace::CameraStatus set_view(Scene& scene, int width, int height) {
-    const CameraSource& source = scene.cameras[scene.camera];
+raytrace::CameraStatus set_view(const Scene& scene, Pose& pose, int width, int height) {
+    const CameraSource& source = scene.cameras[pose.camera];
     const CameraDefinition& camera = scene.description->cameras[source.definition];
-    const dmat4& world = scene.nodes[source.node].world;
-    raytrace::CameraOptics optics = optics_of(scene);
+    const dmat4& world = pose.nodes[source.node].world;
+    raytrace::CameraOptics optics = optics_of(scene, pose);
     double scale = glm::length(dvec3(world[2]));  // the clip range is in units of the node
     if (scale > 0 && std::isfinite(scale)) {
         optics.znear *= scale;
         optics.zfar *= scale;
     }
     raytrace::CameraStatus status =
-        raytrace::make_camera(optics, world, width, height, scene.origin, scene.size, scene.view);
+        raytrace::make_camera(optics, world, width, height, scene.origin, scene.size, pose.view);
     // What a file's camera says it sees from and to; a range that had to be repaired says nothing.
     bool both = camera.znear.present() && camera.zfar.present();
     bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;
-    scene.view.clip = camera.clips && !(both && repaired);
+    pose.view.clip = camera.clips && !(both && repaired);
     return status;
 }
 
-raytrace::CameraStatus set_view(Scene& scene, const PlacedCamera& camera, int width, int height) {
+raytrace::CameraStatus set_view(const Scene& scene, Pose& pose, const PlacedCamera& camera,
+                                int width, int height) {
     raytrace::CameraStatus status = raytrace::make_camera(
-        camera.optics, camera.world, width, height, scene.origin, scene.size, scene.view);
-    scene.view.clip = false;
+        camera.optics, camera.world, width, height, scene.origin, scene.size, pose.view);
+    pose.view.clip = false;
     bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;  // it had none
     return repaired ? raytrace::CameraStatus::Ok : status;
 }
 
 std::optional<double> camera_aspect(const Scene& scene) {
-    return raytrace::picture_aspect(optics_of(scene));
+    return raytrace::picture_aspect(optics_of(scene, scene.start));
 }
 
 }  // namespace kinora

@@ -8,17 +8,18 @@
 
 namespace kinora {
 
-// Sets Scene::view from the scene's camera as its node stands, for a picture of that size.
-raytrace::CameraStatus set_view(Scene& scene, int width, int height);
+// Sets Pose::view from the scene's camera as its node stands, for a picture of that size.
+raytrace::CameraStatus set_view(const Scene& scene, Pose& pose, int width, int height);
 
 // A camera that is no part of the scene; its units and axes are the scene's.
 struct PlacedCamera {
     raytrace::CameraOptics optics;  // angles in radians
     dmat4 world{1.0};               // as a camera node's
 };
-raytrace::CameraStatus set_view(Scene& scene, const PlacedCamera& camera, int width, int height);
+raytrace::CameraStatus set_view(const Scene& scene, Pose& pose, const PlacedCamera& camera,
+                                int width, int height);
 
-// Width / height of the scene's camera where its optics say so, at its base values.
+// Width / height of the scene's camera where its optics say so, at its start.
 std::optional<double> camera_aspect(const Scene& scene);
 
 }  // namespace kinora

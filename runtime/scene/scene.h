@@ -1,32 +1,23 @@
-// runtime/scene/scene.h: a scene in memory, ready for frames. Made by build_scene from a
-// description; changed by the steps of render_frame only. State depends on the time alone, never on
-// the frame before.
+// runtime/scene/scene.h: a scene in memory: what no time changes. Made by build_scene from a
+// description, and constant afterwards. A Pose (runtime/scene/pose.h) holds what a time decides.
 //
 // Spaces: "world" is the root file's own; "accel" is world minus Scene::origin, as floats;
 // "current" is camera space (x right, y up, z into the picture).
 #pragma once
 
-#include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "anim/animation.h"
-#include "anim/baked.h"
-#include "jit/math/math.h"
-#include "jit/target.h"
-#include "raytrace/accel.h"
-#include "raytrace/camera.h"
-#include "raytrace/integrator.h"
-#include "runtime/base/arena.h"
-#include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
-#include "runtime/description/texture_name.h"
-#include "skin/dual_quaternion.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/scene_options.h"
 #include "skin/morph.h"
+#include "skin/skeleton.h"
 #include "skin/skin.h"
 
 namespace kinora {
@@ -42,13 +33,9 @@ struct Node {
     uint32_t definition = kNone;
     uint32_t parent = kNone;
     bool can_move = false;  // it or an ancestor is animated
-    bool moved = true;      // by the last update_transforms
     bool hidden = false;    // it or an ancestor is
     bool chosen = true;     // its meshes are there (SceneDescription::only_chosen)
-    bool finite = true;     // else `world` is all zero
-    bool told = false;      // that it is not finite
     dmat4 conversion{1.0};  // of the reference that brought it in
-    dmat4 world{1.0};       // world_from_node
 };
 
 // Rest data of a mesh, shared by all its shapes. Positions are minus `anchor`.
@@ -92,27 +79,15 @@ struct Shape {
     uint32_t applies_below = kNone;     // if it does: below this node, which moves the joints, too
     std::vector<uint32_t> joint_nodes;  // scene nodes
 
-    // Where the triangles stand now: own buffers (accel space) for static and deforming shapes,
-    // the mesh's own for instanced ones.
+    // Of a static shape: where its triangles stand, accel space.
     std::vector<vec4> positions, normals;
-    dmat4 world{1.0};  // world_from_mesh: the node's matrix and the conversion (not the anchor)
-    bool mirrored = false;
-    uint32_t positions_version = 0;
 
     skin::Skeleton skeleton;
     skin::SkinMesh skin_mesh;
-    std::vector<dmat4> joint_world;  // world_from_joint, in joint order
-    std::vector<skin::JointMatrix> palette;
-    std::vector<skin::DualJoint> dual_palette;  // of SkinMethod::Dual, else empty
-    std::vector<vec4> morphed_positions, morphed_normals;
-    std::vector<double> morph_weights;  // of morph_data's targets
 
     // Displacement and transformation that run at frames; null where none does. Without a skin they
     // move the (morphed) mesh and the node's matrix comes after; with one they move what it gives.
     std::unique_ptr<VertexWork> vertex_work;
-    std::vector<vec4> displaced_positions, displaced_normals;  // without a skin
-
-    std::span<const vec4> rest_positions, rest_normals;  // what the ray tracer and shading read
 };
 
 // A shader that moves a surface's vertices.
@@ -136,6 +111,12 @@ struct Surface {
     VertexUse transformation, displacement;
 };
 
+// The ray tracer's tree of a scene in which nothing moves: its first pose makes it, all share it.
+struct StillTree {
+    std::mutex mutex;
+    std::optional<raytrace::Accel> accel;
+};
+
 // An occurrence of a light.
 struct LightSource {
     uint32_t definition = kNone;
@@ -144,75 +125,15 @@ struct LightSource {
     uint32_t surface = kNone;  // whose triangles shine; kNone: no area light
 };
 
-// What an animation can move; all else stays as the first frame left it.
+// What an animation can move; all else stands in every pose as in the first frame of each.
 struct MovingParts {
     std::vector<uint32_t> nodes, shapes, surfaces;  // indices, in order
-    bool rest_finite = true;                        // the matrices of all other nodes
 };
 
 struct CameraSource {
     uint32_t definition = kNone;  // kNone: the default camera
     uint32_t node = kNone;
     std::string name;  // as --camera takes it
-};
-
-enum class ShadowMode : uint8_t { Auto, Explicit, Off };
-// Which lights shine: the scene's, and the default ones where it has none that light anything
-// (Auto); only the scene's; only the default ones; both.
-enum class LightSet : uint8_t { Auto, Scene, Default, Both };
-enum class DisplacementMode : uint8_t { True, Bump };
-// How joints are blended: by their matrices, as COLLADA has it, or by dual quaternions.
-enum class SkinMethod : uint8_t { Linear, Dual };
-
-// How a camera is put up that no file brought, and what it is to see.
-struct ViewOptions {
-    bool follow = false;      // it moves with the centre of what it shows
-    double turn_seconds = 0;  // of a full turn about the up axis; 0: none
-    double turn_start = 0;    // seconds
-    double yfov = 0;          // degrees, of any camera; 0: its own
-    std::optional<dvec3> from, at;
-    std::string at_node;  // at the node with this path, id or name
-
-    bool any_place() const { return follow || turn_seconds > 0 || from || at || !at_node.empty(); }
-};
-
-// What a scene is built for; part of what the kernels are.
-struct SceneOptions {
-    // A view (runtime/build/views.h), or a node path or id or a camera id, the latter also behind
-    // '#'; "": the first instance in document order, if it sees something of the scene.
-    std::string camera;
-    ViewOptions view;
-    jit::math::Tier math = jit::math::Tier::Precise;
-    const jit::Target* target = nullptr;  // null: the best of this CPU
-    ShadowMode shadows = ShadowMode::Auto;
-    LightSet lights = LightSet::Auto;
-    int ray_depth = 16;  // rays that trace, gather and indirectdiffuse may hang behind each other
-    int diffuse_depth = 1;  // of those, bounces of indirectdiffuse
-    int split = 1;  // hits of a path where both what is reflected and what passes is followed
-    int ray_limit = 1000;  // rays that a camera ray's points may shoot (docs/rays.md#budgets)
-    raytrace::AccelPolicy accel;
-    anim::KeyOptions keys;    // how curves through keys are followed
-    bool derivatives = true;  // of shaders; false: Du, Dv and the widths of filters are 0
-    TextureFilter texture_filter = TextureFilter::Anisotropic;  // the best that lookups have
-    bool decode_textures = true;  // 8-bit colours from sRGB; false: --color legacy
-    uint32_t light_samples = 0;   // of area lights; 0: the file's, else 16
-    // The weakest lights of a point cast no shadow rays and count as shadowed, up to this share of
-    // what all lights send there.
-    float weak_lights = 0;
-    // Classes: where opacity() leaves no channel above it, the point counts as a hole.
-    float opacity_threshold = 0;
-    std::vector<std::string> aovs;  // output parameters of surfaces that the picture keeps
-    double frame_rate = 0;          // frames a second that option("Frame") counts; 0: the file's
-    // Range played, seconds: what added cameras frame, and its views tell how fine to dice.
-    double start_time = 0, end_time = 0;
-    DisplacementMode displacement = DisplacementMode::True;  // Bump: only N is bent
-    SkinMethod skin_method = SkinMethod::Linear;
-    uint32_t influences = 0;        // the strongest that a vertex keeps; 0: all
-    double dice = 2;                // length of a displaced surface's edges, pixels
-    size_t dice_limit = 4'000'000;  // triangles of all displaced surfaces together
-    int width = 640, height = 0;    // of the picture that dicing is for; 0: from the camera
-    std::vector<std::pair<std::string, std::string>> dumps;  // filled when want_dumps
-    bool want_dumps = false;
 };
 
 // A plane of the film: one component of an output parameter of surfaces.
@@ -231,8 +152,6 @@ struct DiceStats {
     double pixels = 0;  // edge length used; more than asked for where the limit bound
 };
 
-class Shading;  // runtime/shading/shading.h
-
 struct Scene {
     Scene();
     ~Scene();
@@ -240,9 +159,6 @@ struct Scene {
 
     std::shared_ptr<SceneDescription> description;
     std::vector<anim::Sampler> baked_samplers;  // instead of the description's; none: those
-    std::vector<double> values;
-    std::vector<uint64_t> changed;  // owner bits of the last evaluate
-    bool first_frame = true;
 
     std::vector<Node> nodes;
     std::vector<Mesh> meshes;
@@ -250,42 +166,45 @@ struct Scene {
     std::vector<Shape> shapes;
     std::vector<Surface> surfaces;
     std::vector<LightSource> lights;
-    MovingParts moving;  // known from the first frame on
+    MovingParts moving;
     std::vector<CameraSource> cameras;
     std::vector<std::unique_ptr<ShaderInstance>> shader_instances;
     // Displacements and transformations.
     std::vector<std::unique_ptr<ShaderInstance>> vertex_instances;
-    uint32_t camera = 0;          // into cameras
     uint32_t atmosphere = kNone;  // the volume outside all objects, into shader_instances
     uint32_t imager = kNone;      // what the finished picture is run through, into shader_instances
     std::vector<OutputPlane> outputs;
     // Interiors and exteriors, into shader_instances: ShaderInstance::volume is k + 1.
     std::vector<uint32_t> volumes;
     std::vector<std::string> added;  // "default camera", "default key light": what --list shows
-    // Frames whose points are yet to be counted for LIGHTS_DARK: only its own lights shine.
+    // Frames of a pose whose points are counted for LIGHTS_DARK: only its own lights shine.
     uint32_t watch_dark = 0;
     float world_light = 0;  // the brightness of the grey world that was added, which is no light
 
-    double time = 0, shutter = 0;  // of the last evaluate, seconds
-
     DiceStats dice;
     std::vector<std::unique_ptr<WatchedEdges>> watched;  // by displaced mesh that was diced
+    std::vector<size_t> vertex_outputs;  // floats of each attribute with VertexAttribute::output
 
     dvec3 origin{0.0};
     double size = 1;  // diagonal of the first frame's bounds
     dvec3 low{0.0}, high{0.0};
 
-    std::vector<raytrace::Geometry> geometry;  // one row a surface
-    raytrace::Accel accel;
-    raytrace::Camera view;
-    raytrace::IntegratorScratch scratch;
+    std::vector<raytrace::Geometry> rows;    // one a surface; a pose has those of its own vertices
+    std::unique_ptr<StillTree> still_tree;   // null: something moves
     std::shared_ptr<TextureStore> textures;  // what names in shaders stand for
     std::shared_ptr<PointStore> points;
-    std::unique_ptr<Shading> shading;
     SceneOptions options;
 
-    bool all_finite = true;  // the nodes' matrices, in this frame
-    std::set<std::pair<uint32_t, raytrace::GeometryIssue>> told_issues;  // of rows
+    // As the scene stands at its start time. build_scene works in it, and takes its vertices away
+    // at its end.
+    Pose start;
+};
+
+// A scene with the pose that its frames are made in.
+struct PosedScene {
+    std::unique_ptr<Scene> scene;
+    std::unique_ptr<Pose> pose;
+    explicit operator bool() const { return scene != nullptr; }
 };
 
 }  // namespace kinora

@@ -39,20 +39,21 @@ dmat4 ndc_from_screen(const raytrace::Camera& view) {
     return m;
 }
 
-dmat4 current_from_owner(const Scene& scene, SpaceOwner owner) {
-    dmat4 m = scene.view.camera_from_world;
-    if (owner.node != kNone) m = m * scene.nodes[owner.node].world;
+dmat4 current_from_owner(const Pose& pose, SpaceOwner owner) {
+    dmat4 m = pose.view.camera_from_world;
+    if (owner.node != kNone) m = m * pose.nodes[owner.node].world;
     if (owner.light) m[2] = -m[2];
     return m;
 }
 
 }  // namespace
 
-dmat4 current_from_space(const Scene& scene, std::string_view name, SpaceOwner owner) {
-    const raytrace::Camera& view = scene.view;
+dmat4 current_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+                         SpaceOwner owner) {
+    const raytrace::Camera& view = pose.view;
     if (name == "current" || name == "camera") return dmat4(1.0);
     if (name == "world") return view.camera_from_world;
-    if (name == "shader" || name == "object") return current_from_owner(scene, owner);
+    if (name == "shader" || name == "object") return current_from_owner(pose, owner);
     dmat4 screen = screen_from_camera(view);
     if (name == "screen") return glm::inverse(screen);
     dmat4 ndc = ndc_from_screen(view) * screen;
@@ -63,19 +64,20 @@ dmat4 current_from_space(const Scene& scene, std::string_view name, SpaceOwner o
         raster[1][1] = view.height;
         return glm::inverse(raster * ndc);
     }
-    for (const Node& n : scene.nodes) {
-        const NodeDefinition& definition = scene.description->nodes[n.definition];
-        if (definition.id == name) return view.camera_from_world * n.world;
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+        const NodeDefinition& definition = scene.description->nodes[scene.nodes[n].definition];
+        if (definition.id == name) return view.camera_from_world * pose.nodes[n].world;
     }
-    return current_from_owner(scene, owner);
+    return current_from_owner(pose, owner);
 }
 
-dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t object) {
+dmat4 object_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+                        uint32_t object) {
     if (name == "current" || name == "object" || name == "shader") return dmat4(1.0);
-    dmat4 object_from_world = glm::inverse(scene.nodes[object].world);
+    dmat4 object_from_world = glm::inverse(pose.nodes[object].world);
     if (name == "world") return object_from_world;
-    return object_from_world * scene.view.world_from_camera *
-           current_from_space(scene, name, object);
+    return object_from_world * pose.view.world_from_camera *
+           current_from_space(scene, pose, name, object);
 }
 
 }  // namespace kinora

@@ -8,6 +8,7 @@
 
 namespace kinora {
 
+struct Pose;
 struct Scene;
 
 // Whose "object" and "shader" space is meant: a scene node's (kNone: the world's). That of a light
@@ -19,12 +20,14 @@ struct SpaceOwner {
     SpaceOwner(uint32_t n, bool is_light = false) : node(n), light(is_light) {}
 };
 
-// current_from_space of a named space at the scene's present state: "world", "camera", "current",
+// current_from_space of a named space in a pose: "world", "camera", "current",
 // "screen", "NDC", "raster", "object"/"shader" of the owner, or a node's id. Composed in double. A
 // name that is none of these means "shader".
-dmat4 current_from_space(const Scene& scene, std::string_view name, SpaceOwner owner);
+dmat4 current_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+                         SpaceOwner owner);
 
 // The same with the space of scene node `object` as "current": what vertices are displaced in.
-dmat4 object_from_space(const Scene& scene, std::string_view name, uint32_t object);
+dmat4 object_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+                        uint32_t object);
 
 }  // namespace kinora

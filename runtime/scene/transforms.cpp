@@ -1,6 +1,7 @@
 // runtime/scene/transforms.cpp: values to matrices; the node hierarchy.
 #include "runtime/scene/transforms.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <utility>
@@ -50,41 +51,45 @@ double unit_of(const dmat4& conversion) {
 
 namespace {
 
-void update_node(Scene& scene, Node& node) {
-    bool own = scene.changed[node.definition / 64] >> (node.definition % 64) & 1;
-    bool above = node.parent != kNone && scene.nodes[node.parent].moved;
-    node.moved = scene.first_frame || own || above;
-    scene.all_finite &= node.finite || node.moved;
-    if (!node.moved) return;
+void update_node(const Scene& scene, Pose& pose, uint32_t n) {
+    const Node& node = scene.nodes[n];
+    NodePose& stands = pose.nodes[n];
+    bool own = pose.changed[node.definition / 64] >> (node.definition % 64) & 1;
+    bool above = node.parent != kNone && pose.nodes[node.parent].moved;
+    stands.moved = pose.first_frame || own || above;
+    if (!stands.moved) return;
     dmat4 local =
-        node.conversion * node_matrix(scene.description->nodes[node.definition], scene.values);
-    dmat4 world = node.parent == kNone ? local : scene.nodes[node.parent].world * local;
+        node.conversion * node_matrix(scene.description->nodes[node.definition], pose.values);
+    dmat4 world = node.parent == kNone ? local : pose.nodes[node.parent].world * local;
     // Never where it stood in the frame before: all zero is singular, and reported as such.
-    node.finite = is_finite(world);
-    node.world = node.finite ? world : dmat4(0.0);
-    scene.all_finite &= node.finite;
+    stands.finite = is_finite(world);
+    stands.world = stands.finite ? world : dmat4(0.0);
 }
 
 }  // namespace
 
-void update_transforms(Scene& scene) {
-    scene.all_finite = scene.first_frame || scene.moving.rest_finite;
-    if (scene.first_frame)
-        for (Node& node : scene.nodes) update_node(scene, node);
-    else
-        for (uint32_t n : scene.moving.nodes) update_node(scene, scene.nodes[n]);
+void update_transforms(const Scene& scene, Pose& pose) {
+    if (pose.first_frame) {
+        for (uint32_t n = 0; n < scene.nodes.size(); ++n) update_node(scene, pose, n);
+        pose.rest_finite = true;
+        for (uint32_t n = 0; n < scene.nodes.size(); ++n)
+            pose.rest_finite &= scene.nodes[n].can_move || pose.nodes[n].finite;
+    } else {
+        for (uint32_t n : scene.moving.nodes) update_node(scene, pose, n);
+    }
+    pose.all_finite = pose.rest_finite && std::ranges::all_of(scene.moving.nodes, [&](uint32_t n) {
+                          return pose.nodes[n].finite;
+                      });
+}
+
+void rest_nodes(Pose& pose) {
+    for (NodePose& node : pose.nodes) node.moved = false;
 }
 
 void find_moving_parts(Scene& scene) {
     MovingParts parts;
-    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        Node& node = scene.nodes[n];
-        node.moved = false;
-        if (node.can_move)
-            parts.nodes.push_back(n);
-        else
-            parts.rest_finite &= node.finite;
-    }
+    for (uint32_t n = 0; n < scene.nodes.size(); ++n)
+        if (scene.nodes[n].can_move) parts.nodes.push_back(n);
     auto moves = [&](const Shape& shape) {
         return shape.kind == raytrace::GeometryKind::Deforming ||
                (shape.kind == raytrace::GeometryKind::Instanced &&

@@ -7,6 +7,7 @@
 
 namespace kinora {
 
+struct Pose;
 struct Scene;
 
 // The matrix of one operation; `v` starts at its values. Angles in degrees. COLLADA 1.4.1 chapter
@@ -17,11 +18,14 @@ dmat4 transform_matrix(TransformKind kind, const double* v);
 // The product of a node's operations in order.
 dmat4 node_matrix(const NodeDefinition& node, std::span<const double> values);
 
-// Brings Scene::nodes up to date: those whose definition's bit is set, and what hangs below them.
+// Brings Pose::nodes up to date: those whose definition's bit is set, and what hangs below them.
 // A matrix that is not finite becomes all zero.
-void update_transforms(Scene& scene);
+void update_transforms(const Scene& scene, Pose& pose);
 
-// Fills Scene::moving, and lets all nodes rest; at the end of the first frame.
+// Lets all nodes rest; at the end of a pose's first frame.
+void rest_nodes(Pose& pose);
+
+// Fills Scene::moving; when its nodes, shapes and surfaces are known.
 void find_moving_parts(Scene& scene);
 
 // The product of the conversions on the way to the node: from the document it is written in into

@@ -1,4 +1,4 @@
-// runtime/scene/values.cpp: a scene's values and node matrices at a time.
+// runtime/scene/values.cpp: a pose's values and node matrices at a time.
 #include "runtime/scene/values.h"
 
 #include "runtime/description/display_color.h"
@@ -7,35 +7,49 @@
 
 namespace kinora {
 
-void evaluate(Scene& scene, double time) {
+void evaluate(const Scene& scene, Pose& pose, double time) {
     const SceneDescription& description = *scene.description;
-    std::vector<double>& values = scene.values;
-    anim::evaluate(description.animation, time, values, scene.changed, scene.baked_samplers);
+    std::vector<double>& values = pose.values;
+    anim::evaluate(description.animation, time, values, pose.changed, scene.baked_samplers);
     for (const MovingColor& color : description.moving_colors) {
         const double* display = &values[color.display];
         dvec3 linear = linear_of_display({display[0], display[1], display[2]});
         for (int k = 0; k < 3; ++k) values[color.linear + uint32_t(k)] = linear[k];
     }
-    scene.time = time;
+    pose.time = time;
 }
 
-void evaluate_anew(Scene& scene, std::optional<double> time) {
+void evaluate_anew(const Scene& scene, Pose& pose, std::optional<double> time) {
     const SceneDescription& description = *scene.description;
-    scene.values = description.values;
+    pose.values = description.values;
     size_t owners = description.nodes.size() + description.morphs.size() + 1;
-    scene.changed.assign(anim::changed_words(owners), 0);
-    scene.time = 0;
-    if (time) evaluate(scene, *time);
-    scene.first_frame = true;
-    update_transforms(scene);
+    pose.changed.assign(anim::changed_words(owners), 0);
+    pose.time = 0;
+    if (time) evaluate(scene, pose, *time);
+    pose.first_frame = true;
+    update_transforms(scene, pose);
 }
 
 void take_added_values(Scene& scene) {
     SceneDescription& description = *scene.description;
     description.animated.resize(description.values.size(), false);
-    size_t known = scene.values.size();
-    scene.values.insert(scene.values.end(), description.values.begin() + ptrdiff_t(known),
-                        description.values.end());
+    std::vector<double>& values = scene.start.values;
+    values.insert(values.end(), description.values.begin() + ptrdiff_t(values.size()),
+                  description.values.end());
+}
+
+void take_added(const Scene& scene, Pose& pose) {
+    const std::vector<double>& values = scene.start.values;
+    pose.values.insert(pose.values.end(), values.begin() + ptrdiff_t(pose.values.size()),
+                       values.end());
+    pose.changed.resize(scene.start.changed.size(), 0);
+    for (size_t n = pose.nodes.size(); n < scene.nodes.size(); ++n) {
+        const Node& node = scene.nodes[n];
+        dmat4 world =
+            node.conversion * node_matrix(scene.description->nodes[node.definition], pose.values);
+        if (node.parent != kNone) world = pose.nodes[node.parent].world * world;
+        pose.nodes.push_back({.world = world, .moved = false});
+    }
 }
 
 }  // namespace kinora

@@ -1,20 +1,23 @@
-// runtime/scene/values.h: a scene's values and node matrices at a time.
+// runtime/scene/values.h: a pose's values at a time.
 #pragma once
 
 #include <optional>
 
 namespace kinora {
 
+struct Pose;
 struct Scene;
 
-// Channels to Scene::values at a time, in seconds. What changed is marked in Scene::changed.
-void evaluate(Scene& scene, double time);
+// Channels to Pose::values at a time, in seconds. What changed is marked in Pose::changed.
+void evaluate(const Scene& scene, Pose& pose, double time);
 
-// Sets Scene::values, changed, time and the nodes' matrices, all of them anew, as the next frame
-// would if it were the first. Seconds; none: the values of the file.
-void evaluate_anew(Scene& scene, std::optional<double> time);
+// Sets the pose's values, changed, time and the nodes' matrices, all of them anew, as the next
+// frame would if it were the first. Seconds; none: the values of the file.
+void evaluate_anew(const Scene& scene, Pose& pose, std::optional<double> time);
 
-// Values that the description got since go into Scene::values; no channel writes them.
+// Values that the description got since go into those of Scene::start; no channel writes them.
 void take_added_values(Scene& scene);
+// The same for a pose that was made before; the nodes that the scene got since stand in it, too.
+void take_added(const Scene& scene, Pose& pose);
 
 }  // namespace kinora

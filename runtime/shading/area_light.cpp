@@ -54,15 +54,16 @@ void AreaLights::begin_frame() {
         if (!light) continue;
         const Surface& surface = scene.surfaces[light->surface];
         const Shape& shape = scene.shapes[surface.shape];
+        const ShapePose& stands = frame_.pose.shapes[surface.shape];
         if (light->known && shape.kind == raytrace::GeometryKind::Static) continue;
         const auto& triangles = scene.meshes[shape.mesh].groups[surface.group].triangles;
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-        dmat3 linear = instanced ? dmat3(shape.world) : dmat3(1.0);
+        dmat3 linear = instanced ? dmat3(stands.world) : dmat3(1.0);
         light->below.resize(triangles.size() / 3);
         double sum = 0;
         for (size_t t = 0; t < light->below.size(); ++t) {
             auto corner = [&](size_t k) {
-                return linear * dvec3(shape.rest_positions[triangles[3 * t + k]]);
+                return linear * dvec3(stands.shown_positions[triangles[3 * t + k]]);
             };
             double area =
                 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
@@ -92,8 +93,8 @@ void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight&
         samples.u[i] = uv.x;
         samples.v[i] = uv.y;
     }
-    frame_.scene.accel.surface_points(at.count, samples.instance.data(), samples.primitive.data(),
-                                      samples.u, samples.v, samples.on_surface);
+    frame_.pose.accel.surface_points(at.count, samples.instance.data(), samples.primitive.data(),
+                                     samples.u, samples.v, samples.on_surface);
 }
 
 LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_t surface) {

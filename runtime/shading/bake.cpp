@@ -23,9 +23,9 @@ constexpr size_t kNeighbours = 8, kMostPhotons = 64;
 struct ToWorld {
     dmat4 point;
     dmat3 normal;  // of normals: the transpose of camera_from_world
-    explicit ToWorld(const Scene& scene)
-        : point(glm::inverse(scene.view.camera_from_world)),
-          normal(glm::transpose(dmat3(scene.view.camera_from_world))) {}
+    explicit ToWorld(const Pose& pose)
+        : point(glm::inverse(pose.view.camera_from_world)),
+          normal(glm::transpose(dmat3(pose.view.camera_from_world))) {}
     vec3 position(vec3 P) const { return vec3(dvec3(point * dvec4(dvec3(P), 1.0))); }
     vec3 direction(vec3 N) const {
         dvec3 n = normal * dvec3(N);
@@ -94,9 +94,9 @@ vec3 photon_density(const PointCloud& cloud, int offset, vec3 P, vec3 N, int wan
 
 }  // namespace
 
-void look_up_points(const Scene& scene, const jit::ServiceCall& call) {
+void look_up_points(const Scene& scene, const Pose& pose, const jit::ServiceCall& call) {
     Rows rows{call};
-    ToWorld to_world(scene);
+    ToWorld to_world(pose);
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         call.results[lane] = jit::float_of(0);
         for (int k = 0; k < rsl::kPointFloats; ++k)
@@ -122,11 +122,11 @@ void look_up_points(const Scene& scene, const jit::ServiceCall& call) {
     }
 }
 
-void look_up_photons(const Scene& scene, const jit::ServiceCall& call) {
+void look_up_photons(const Scene& scene, const Pose& pose, const jit::ServiceCall& call) {
     static const int32_t kPower = rsl::intern("color power");
     static const int32_t kDiffusion = rsl::intern("color _ssdiffusion,color _radiance_t");
     Rows rows{call};
-    ToWorld to_world(scene);
+    ToWorld to_world(pose);
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         vec3 light(0.0f);
         int32_t file = rows.integer(0, lane);
@@ -163,7 +163,7 @@ void Bakes::add(const Grid& grid, const jit::ServiceCall& call) {
     if (grid.depth > 0 || !grid.shadows) return;
     std::vector<BakedPoint>& points = points_[grid.memory.number];
     Rows rows{call};
-    ToWorld to_world(scene_);
+    ToWorld to_world(pose_);
     for (int lane = 0; lane < call.lanes; ++lane) {
         if (!(call.mask >> lane & 1)) continue;
         uint32_t hit = grid.points[size_t(call.first + lane)];

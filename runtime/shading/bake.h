@@ -15,12 +15,12 @@ namespace kinora {
 
 // Values near P: the mean of up to 8 of the file's points with normals to P's side, weighed by
 // (1 - distance / that of the farthest)^2; exactly a point's own where P is that point.
-void look_up_points(const Scene& scene, const jit::ServiceCall& call);
+void look_up_points(const Scene& scene, const Pose& pose, const jit::ServiceCall& call);
 
 // PhotonKind::Map and Caustic: the power of the nearest photons by the area of the disc that holds
 // them (H. W. Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, eq. 7.6), channel
 // "power". Subsurface: as texture3d of "_ssdiffusion", else of "_radiance_t".
-void look_up_photons(const Scene& scene, const jit::ServiceCall& call);
+void look_up_photons(const Scene& scene, const Pose& pose, const jit::ServiceCall& call);
 
 // A point of bake3d: P, N, radius, then its channels' numbers.
 struct BakedPoint {
@@ -31,7 +31,7 @@ struct BakedPoint {
 
 class Bakes {
   public:
-    explicit Bakes(const Scene& scene) : scene_(scene) {}
+    Bakes(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
     void begin_frame(size_t threads);
     // A call at a grid's points: kept with their pixels.
     void add(const Grid& grid, const jit::ServiceCall& call);
@@ -41,6 +41,7 @@ class Bakes {
 
   private:
     const Scene& scene_;
+    const Pose& pose_;
     std::vector<std::vector<BakedPoint>> points_;  // by thread
     std::set<std::string> reported_;               // files that could not be read
 };

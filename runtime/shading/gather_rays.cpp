@@ -494,7 +494,7 @@ void GatherRays::Call::shade() {
     below->hits.reserve(kGridPoints);
     const raytrace::RayBatch& rays = nested_->rays;
     const raytrace::HitBatch& hits =
-        raytrace::trace(all_.frame_.scene.accel, nested_->rays, raytrace::kMaskAll, grid_.depth + 1,
+        raytrace::trace(all_.frame_.pose.accel, nested_->rays, raytrace::kMaskAll, grid_.depth + 1,
                         below->hits, own.counters.trace);
     if (hits.count == 0) return;
     std::span<float*> columns = columns_of(hits, own.arena);

@@ -46,7 +46,7 @@ namespace {
 // A hit's triangle with everything interpolation needs.
 struct Corner {
     const Surface& surface;
-    const Shape& shape;
+    const Pose& pose;
     const Mesh& mesh;
     const MeshGroup& group;
     uint32_t primitive;
@@ -54,10 +54,11 @@ struct Corner {
 
     uint32_t position(int k) const { return group.triangles[3 * primitive + uint32_t(k)]; }
     vec3 normal(int k) const {
-        return vec3(shape.rest_normals[group.normal_corners[3 * primitive + uint32_t(k)]]);
+        return vec3(pose.shapes[surface.shape]
+                        .shown_normals[group.normal_corners[3 * primitive + uint32_t(k)]]);
     }
     const float* attribute(const VertexAttribute& a, int k) const {
-        return &a.values[size_t(a.corners[3 * primitive + uint32_t(k)]) * a.stride];
+        return &values_of(a, pose)[size_t(a.corners[3 * primitive + uint32_t(k)]) * a.stride];
     }
 };
 
@@ -119,7 +120,12 @@ void copy_block(const float* block, size_t count, float* to) {
 class HitSource : public PointSource {
   public:
     HitSource(Grid& grid, const mat3& rotation, vec3 eye)
-        : grid_(grid), hits_(grid.hits), scene_(grid.scene), rotation_(rotation), eye_(eye) {
+        : grid_(grid),
+          hits_(grid.hits),
+          scene_(grid.scene),
+          pose_(grid.pose),
+          rotation_(rotation),
+          eye_(eye) {
         P_ = triple_rows(kColP);
         I_ = triple_rows(kColI);
         N_ = triple_rows(kColN);
@@ -194,10 +200,11 @@ class HitSource : public PointSource {
     void enter(uint32_t row) {
         surface_ = &scene_.surfaces[row];
         shape_ = &scene_.shapes[surface_->shape];
+        stands_ = &pose_.shapes[surface_->shape];
         mesh_ = &scene_.meshes[shape_->mesh];
         if (shape_->kind == raytrace::GeometryKind::Instanced) {
-            linear_ = rotation_ * mat3(dmat3(shape_->world));
-            normals_ = rotation_ * normal_matrix(shape_->world, shape_->mirrored);
+            linear_ = rotation_ * mat3(dmat3(stands_->world));
+            normals_ = rotation_ * normal_matrix(stands_->world, stands_->mirrored);
             unit_corners_ = !keeps_angles(normals_);
         } else {
             linear_ = normals_ = rotation_;
@@ -208,7 +215,7 @@ class HitSource : public PointSource {
     Corner corner(size_t i) const {
         uint32_t hit = grid_.points[i];
         return {
-            *surface_,    *shape_,     *mesh_, mesh_->groups[surface_->group], hits_.primitive[hit],
+            *surface_,    pose_,       *mesh_, mesh_->groups[surface_->group], hits_.primitive[hit],
             hits_.u[hit], hits_.v[hit]};
     }
 
@@ -235,7 +242,7 @@ class HitSource : public PointSource {
     }
     // Whether all rays began at the eye, where P and I are the same.
     bool of_eye() const {
-        return hits_.rays && hits_.depth == 0 && !volume_ && !scene_.view.orthographic;
+        return hits_.rays && hits_.depth == 0 && !volume_ && !pose_.view.orthographic;
     }
     void share_positions() const {
         for (size_t k = 0; k < 3; ++k) grid_.columns[kColI + k] = P_.c[k];
@@ -291,7 +298,7 @@ class HitSource : public PointSource {
     // A normal that vanishes gives way to the geometric one (docs/numerics.md#geometry).
     void sixteen_normals(size_t first, size_t end) const {
         const uint32_t* corners = mesh_->groups[surface_->group].normal_corners.data();
-        const vec4* entries = shape_->rest_normals.data();
+        const vec4* entries = stands_->shown_normals.data();
         const SixteenPoints points = sixteen(first, end);
         CornerNormals at;
         for (size_t i = 0; i < kColumnPoints; ++i) {
@@ -363,13 +370,13 @@ class HitSource : public PointSource {
     };
 
     // Number `component` of an attribute at the corners.
-    static CornerNumbers of_attribute(const Block& block, const VertexAttribute& a,
-                                      uint32_t component) {
+    CornerNumbers of_attribute(const Block& block, const VertexAttribute& a,
+                               uint32_t component) const {
+        const float* values = values_of(a, pose_).data() + component;
         CornerNumbers x;
         for (size_t i = 0; i < kColumnPoints; ++i)
             for (size_t k = 0; k < 3; ++k)
-                x.at[k][i] =
-                    a.values[size_t(a.corners[block.corner[i] + k]) * a.stride + component];
+                x.at[k][i] = values[size_t(a.corners[block.corner[i] + k]) * a.stride];
         return x;
     }
     void find_parameters(Block& block, TwoRows& st, TwoRows& uv) const {
@@ -387,7 +394,7 @@ class HitSource : public PointSource {
 
     void tangents(const Block& block, const SixteenPoints& points, size_t first) const {
         const uint32_t* corners = mesh_->groups[surface_->group].triangles.data();
-        const vec4* places = shape_->rest_positions.data();
+        const vec4* places = stands_->shown_positions.data();
         CornerPlaces at;
         for (size_t i = 0; i < kColumnPoints; ++i)
             for (size_t k = 0; k < 3; ++k)
@@ -475,8 +482,8 @@ class HitSource : public PointSource {
 
     void matrices(size_t begin, size_t end) const {
         // A volume belongs to a node of its own, not to the surface behind it.
-        dmat4 to = volume_ ? current_from_space(scene_, "object", grid_.look->node)
-                           : scene_.view.camera_from_world * scene_.nodes[shape_->node].world;
+        dmat4 to = volume_ ? current_from_space(scene_, pose_, "object", grid_.look->node)
+                           : pose_.view.camera_from_world * pose_.nodes[shape_->node].world;
         mat4 to_current(to), from_current(glm::inverse(to));
         for (size_t r = 0; r < 3; ++r)
             for (size_t c = 0; c < 4; ++c) {
@@ -492,6 +499,7 @@ class HitSource : public PointSource {
     Grid& grid_;
     const raytrace::HitBatch& hits_;
     const Scene& scene_;
+    const Pose& pose_;
     const ColumnKernels& kernels_ = column_kernels();
     mat3 rotation_;
     vec3 eye_;
@@ -501,6 +509,7 @@ class HitSource : public PointSource {
     bool volume_ = grid_.look->kind == ShaderInstanceKind::Volume;
     const Surface* surface_ = nullptr;
     const Shape* shape_ = nullptr;
+    const ShapePose* stands_ = nullptr;
     const Mesh* mesh_ = nullptr;
     mat3 linear_{1.0f}, normals_{1.0f};
 };
@@ -515,12 +524,12 @@ void gather(Grid& grid) {
     fill_columns(source, {grid.count(), grid.columns});
 }
 
-float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hit, size_t which,
-                 uint32_t component) {
+float varying_at(const Scene& scene, const Pose& pose, const raytrace::HitBatch& hits, uint32_t hit,
+                 size_t which, uint32_t component) {
     const Surface& surface = scene.surfaces[hits.instance[hit]];
     const Shape& shape = scene.shapes[surface.shape];
     const Mesh& mesh = scene.meshes[shape.mesh];
-    Corner c{surface,     shape,      mesh, mesh.groups[surface.group], hits.primitive[hit],
+    Corner c{surface,     pose,       mesh, mesh.groups[surface.group], hits.primitive[hit],
              hits.u[hit], hits.v[hit]};
     const VaryingParam& param = scene.shader_instances[surface.look]->varying[which];
     float x[3];

@@ -43,12 +43,13 @@ struct PointRays {
 struct Grid {
     Grid(const ShadingFrame& f, ThreadMemory& m, const raytrace::HitBatch& h,
          std::span<const uint32_t> p, const ShaderInstance* l)
-        : frame(f), memory(m), scene(f.scene), hits(h), points(p), look(l) {}
+        : frame(f), memory(m), scene(f.scene), pose(f.pose), hits(h), points(p), look(l) {}
     Grid(const Grid&) = delete;
 
     const ShadingFrame& frame;
     ThreadMemory& memory;
     const Scene& scene;
+    const Pose& pose;
     const raytrace::HitBatch& hits;
     std::span<const uint32_t> points;  // indices into hits
     const ShaderInstance* look;
@@ -101,7 +102,7 @@ mat3 normal_matrix(const dmat4& m, bool mirrored);
 
 // Number `component` of ShaderInstance::varying[which] of the look that a hit's surface wears: the
 // bits that its column would have.
-float varying_at(const Scene& scene, const raytrace::HitBatch& hits, uint32_t hit, size_t which,
-                 uint32_t component);
+float varying_at(const Scene& scene, const Pose& pose, const raytrace::HitBatch& hits, uint32_t hit,
+                 size_t which, uint32_t component);
 
 }  // namespace kinora

@@ -244,7 +244,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         result.passages[points[i]] = {rays.onward, rays.reflects, rays.shot - before};
     }
     const bool whole = frame_.insight.only_light == kNone;
-    if (whole && frame_.scene.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
+    if (whole && frame_.pose.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)
         for (size_t i = 0; look.aovs[p] >= 0 && i < points.size(); ++i)
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];

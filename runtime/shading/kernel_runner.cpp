@@ -21,12 +21,18 @@ size_t fault_row(const ShaderInstance& look, const BoundKernel& bound) {
     return 2 * look.index + (&bound != &look.full);
 }
 
-// Calls f(bound kernel, its row of faults) for each of all looks.
+const FrameBlock& block_of(const ShadingFrame& frame, const ShaderInstance& look,
+                           const BoundKernel& bound) {
+    const InstanceFrame& of = frame.instances[look.index];
+    return &bound == &look.full ? of.full : of.opacity;
+}
+
+// Calls f(look, bound kernel) for each kernel of all looks.
 template <class F>
 void for_each_kernel(const Scene& scene, F&& f) {
     for (const auto& look : scene.shader_instances) {
-        f(look->full, fault_row(*look, look->full));
-        if (look->opacity) f(*look->opacity, fault_row(*look, *look->opacity));
+        f(*look, look->full);
+        if (look->opacity) f(*look, *look->opacity);
     }
 }
 
@@ -38,24 +44,26 @@ void KernelRunner::begin_frame(size_t threads) {
         for (auto& row : faults) std::ranges::fill(row, uint8_t(0));
         if (faults.size() == 2 * scene_.shader_instances.size()) continue;
         faults.resize(2 * scene_.shader_instances.size());
-        for_each_kernel(scene_, [&](const BoundKernel& bound, size_t row) {
-            faults[row].assign(bound.kernel().fault_sites.size(), 0);
+        for_each_kernel(scene_, [&](const ShaderInstance& look, const BoundKernel& bound) {
+            faults[fault_row(look, bound)].assign(bound.kernel().fault_sites.size(), 0);
         });
     }
 }
 
 void KernelRunner::report_faults(Diagnostics& diagnostics) const {
     for (const auto& look : scene_.shader_instances)
-        if (const SceneKernel& full = look->full; full.prints_asked > full.prints_shown)
-            diagnostics.report(Code::PRINT_LIMIT, Location{}, look->shader().name,
-                               full.prints_asked, full.prints_shown);
-    for_each_kernel(scene_, [&](const BoundKernel& bound, size_t row) {
+        if (const InstanceFrame& of = frame_.instances[look->index];
+            of.prints_asked > of.prints_shown)
+            diagnostics.report(Code::PRINT_LIMIT, Location{}, look->shader().name, of.prints_asked,
+                               of.prints_shown);
+    for_each_kernel(scene_, [&](const ShaderInstance& look, const BoundKernel& bound) {
+        const size_t row = fault_row(look, bound);
         auto faulted = [&](size_t site) {
             return std::any_of(faults_.begin(), faults_.end(),
                                [&](const auto& faults) { return faults[row][site] != 0; });
         };
         kinora::report_faults(bound.kernel(), faulted, diagnostics);
-        bound.report_frame_faults(diagnostics);
+        bound.report_frame_faults(block_of(frame_, look, bound), diagnostics);
     });
 }
 
@@ -101,6 +109,7 @@ void KernelRunner::run_noting(Grid& grid) const {
     GridHost host(grid, services_);
     // Its faults may come of what it does not know yet.
     bound.run({.count = grid.count(),
+               .frame = block_of(frame_, *grid.look, bound),
                .columns = grid.columns,
                .out = take_outputs(bound.kernel(), grid.count(), arena),
                .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
@@ -121,6 +130,7 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
     grid.memory.counters.kernel_points += grid.count();
     grid.memory.counters.kernel_lanes += (grid.count() + lanes - 1) / lanes * lanes;
     bound.run({.count = grid.count(),
+               .frame = block_of(frame_, *grid.look, bound),
                .columns = grid.columns,
                .out = out,
                .faults = faults_[grid.memory.number][fault_row(*grid.look, bound)],

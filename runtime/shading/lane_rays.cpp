@@ -109,7 +109,7 @@ void LaneRays::enter_hits() {
 }
 
 void LaneRays::enter_bends() {
-    SmoothSurface surface(grid_.scene);
+    SmoothSurface surface(grid_.scene, grid_.pose);
     for (int lane = 0; lane < kSixteen; ++lane) {
         vec3 x(0.0f), y(0.0f);
         const bool asks = lanes_.asks(lane) && on_surface(grid_);

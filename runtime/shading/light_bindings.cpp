@@ -138,9 +138,9 @@ constexpr BoundedShader kBounded[] = {
 constexpr std::string_view kColored[] = {"collada_ambient", "collada_directional", "collada_point",
                                          "collada_spot",    "gltf_point",          "gltf_spot"};
 
-// Whether a light of the library sends nothing at the scene's present time: its color or its
+// Whether a light of the library sends nothing in a pose: its color or its
 // intensity is 0.
-bool is_black(const Scene& scene, const ShaderInstance& look) {
+bool is_black(const Pose& pose, const ShaderInstance& look) {
     const std::string& name = look.shader().name;
     if (std::ranges::find(kColored, name) == std::end(kColored) ||
         &look.shader() != library_shader(name).get())
@@ -149,7 +149,7 @@ bool is_black(const Scene& scene, const ShaderInstance& look) {
     for (const ParamSource& source : look.layers[0].params) {
         const bool color = source.name == "lightcolor";
         if ((!color && source.name != "intensity") || !source.value.present()) continue;
-        const double* value = &scene.values[source.value.offset];
+        const double* value = &pose.values[source.value.offset];
         black |= std::all_of(value, value + (color ? 3 : 1), [](double x) { return x == 0; });
     }
     return black;
@@ -157,18 +157,16 @@ bool is_black(const Scene& scene, const ShaderInstance& look) {
 
 }  // namespace
 
-LightReach LightBindings::reach(const Scene& scene, size_t light) const {
+LightReach LightBindings::reach(const Scene& scene, const Pose& pose, size_t light) const {
     const ShaderInstance& look = *scene.shader_instances[scene.lights[light].look];
     LightReach reach;
-    reach.black = is_black(scene, look);
+    reach.black = is_black(pose, look);
     if (look.area_light) return reach;  // its light does not come from its node
     for (const BoundedShader& row : kBounded) {
         if (look.shader().name != row.name || &look.shader() != library_shader(row.name).get())
             continue;
-        auto number = [&](const char* name) {
-            return double(number_of(look, name).at_present(scene));
-        };
-        const dmat4 current = kinora::current_from_space(scene, "shader", look.space_owner());
+        auto number = [&](const char* name) { return double(number_of(look, name).in(pose)); };
+        const dmat4 current = kinora::current_from_space(scene, pose, "shader", look.space_owner());
         reach.apex = dvec3(current[3]);
         reach.axis = glm::normalize(dvec3(current[2]));
         if (*row.angle) reach.set_cone(std::abs(number(row.angle)) * row.half_radians);
@@ -178,8 +176,8 @@ LightReach LightBindings::reach(const Scene& scene, size_t light) const {
     return reach;
 }
 
-float LightNumber::at_present(const Scene& scene) const {
-    return value == kNone ? fixed : float(scene.values[value]);
+float LightNumber::in(const Pose& pose) const {
+    return value == kNone ? fixed : float(pose.values[value]);
 }
 
 LightBindings::LightBindings(const Scene& scene) {

@@ -19,11 +19,11 @@ struct LightOutputs {
     int spread = -1;  // of solar with an angle: light comes from a cone
 };
 
-// A number of a light that may be animated: in Scene::values, or fixed (`value` is kNone).
+// A number of a light that may be animated: in Pose::values, or fixed (`value` is kNone).
 struct LightNumber {
     uint32_t value = kNone;
     float fixed = 0;
-    float at_present(const Scene& scene) const;
+    float in(const Pose& pose) const;
 };
 
 // What one surface look reads of one light.
@@ -42,9 +42,9 @@ class LightBindings {
     std::span<const LightOutputs> statements(size_t light) const { return statements_[light]; }
     // What look `look` among Scene::looks, no light's, reads of it.
     const LightBinding& binding(size_t look, size_t light) const { return bindings_[look][light]; }
-    // Where light `light` can send light at the scene's present time, in current space; of other
-    // shaders than the library's that is everywhere.
-    LightReach reach(const Scene& scene, size_t light) const;
+    // Where light `light` can send light in a pose, in current space; of other shaders than the
+    // library's that is everywhere.
+    LightReach reach(const Scene& scene, const Pose& pose, size_t light) const;
     // Whether some loop of some look asks for it.
     bool asked(size_t light) const { return asked_[light]; }
     // Whether some statement sends light from somewhere.

@@ -22,11 +22,11 @@ namespace kinora {
 namespace {
 
 // Columns a light kernel reads, from the points to be lit.
-std::span<float*> light_columns(const ShaderInstance& look, const Scene& scene,
+std::span<float*> light_columns(const ShaderInstance& look, const Pose& pose,
                                 const LightSource& light, const LightPoints& at, Arena& arena) {
     std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
     std::fill(columns.begin(), columns.end(), nullptr);
-    vec3 origin(scene.view.camera_from_world * scene.nodes[light.node].world[3]);
+    vec3 origin(pose.view.camera_from_world * pose.nodes[light.node].world[3]);
     auto view = [](const float* p) { return const_cast<float*>(p); };
     for (uint16_t column : look.full.columns) {
         if (columns[column]) continue;
@@ -62,7 +62,7 @@ SeenPoints seen_points(const Grid& grid) {
     SeenPoints points;
     points.count = grid.count();
     points.sides = grid.look->lowered.lit_sides;
-    const bool counts = grid.scene.watch_dark > 0 && grid.depth == 0;
+    const bool counts = grid.pose.watch_dark > 0 && grid.depth == 0;
     if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
     for (size_t k = 0; k < 3; ++k) {
         points.N[k] = grid.columns[kColN + k];
@@ -72,13 +72,13 @@ SeenPoints seen_points(const Grid& grid) {
     return points;
 }
 
-const float* record_uniforms(const Scene& scene, Arena& arena, const LightOutputs& statement,
+const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs& statement,
                              const LightBinding& binding) {
     float* uniforms = arena.allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
     uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
     uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
-    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.at_present(scene);
-    uniforms[rsl::kLightNonspecular] = binding.nonspecular.at_present(scene);
+    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.in(pose);
+    uniforms[rsl::kLightNonspecular] = binding.nonspecular.in(pose);
     for (size_t m = 0; m < binding.known.size(); ++m)
         uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
     return uniforms;
@@ -113,14 +113,14 @@ void LightRecords::begin_frame(bool all) {
     area_lights_.begin_frame();
     reaches_.resize(frame_.scene.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l)
-        if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, l);
+        if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, frame_.pose, l);
     find_present();
 }
 
 // By the box of the whole scene, so that the grids need not ask of each light again.
 void LightRecords::find_present() {
     vec3 low, high;
-    frame_.scene.accel.bounds(low, high);
+    frame_.pose.accel.bounds(low, high);
     const dmat3 current(frame_.camera_from_accel);
     const dvec3 half = 0.5 * (dvec3(high) - dvec3(low));
     Sphere scene;
@@ -250,7 +250,7 @@ void LightRecords::dark_records(Making& making, const LightOutputs& statement,
     std::span<const float*> columns =
         arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), making.at.zeros - making.at.first);
-    const float* uniforms = record_uniforms(frame_.scene, arena, statement, binding);
+    const float* uniforms = record_uniforms(frame_.pose, arena, statement, binding);
     while (making.record_count < end)
         making.records[making.record_count++] = {columns.data(), uniforms};
 }
@@ -298,7 +298,7 @@ void LightRecords::plain_records(Making& making, size_t l) {
         lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
         std::fill(lit.record_sets.begin(), lit.record_sets.end(), jit::RecordSet{});
     }
-    lit.columns = light_columns(look, frame_.scene, light, at, arena);
+    lit.columns = light_columns(look, frame_.pose, light, at, arena);
     if (look.lowered.draws_random) lit.note_random();
     std::span<float*> out = kernels_.run(look.full, lit);
     grid.memory.counters.light_points += at.count;
@@ -437,7 +437,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
     // Columns are read at the grid's point, so those of a part of it start before it.
     for (const float*& column : columns) column -= at.first;
     making.records[making.record_count++] = {
-        columns.data(), record_uniforms(frame_.scene, arena, statement, binding)};
+        columns.data(), record_uniforms(frame_.pose, arena, statement, binding)};
 }
 
 int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
@@ -528,10 +528,11 @@ class SilentHost : public SceneHost {
 };
 
 // The probes through the light's kernel; a row for each output.
-std::span<float*> run_probes(const Scene& scene, const ShaderInstance& look, Arena& arena) {
+std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& look, Arena& arena) {
+    const Scene& scene = frame.scene;
     const BoundKernel& bound = look.full;
     const jit::Kernel& kernel = bound.kernel();
-    dmat4 current = current_from_space(scene, "shader", look.space_owner());
+    dmat4 current = current_from_space(scene, frame.pose, "shader", look.space_owner());
     dvec3 origin(current[3]);
     auto new_row = [&] {
         std::span<float> row = arena.allocate_span<float>(kProbes);
@@ -556,8 +557,9 @@ std::span<float*> run_probes(const Scene& scene, const ShaderInstance& look, Are
     std::span<jit::RecordSet> records = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(records.begin(), records.end(), jit::RecordSet{});
     std::span<uint8_t> faults = arena.allocate_span<uint8_t>(kernel.fault_sites.size());
-    SilentHost host(scene, look);
+    SilentHost host(scene, frame.pose, look);
     bound.run({.count = kProbes,
+               .frame = frame.instances[look.index].full,
                .columns = columns,
                .out = out,
                .faults = faults,
@@ -578,8 +580,8 @@ void LightRecords::report_aims(Diagnostics& diagnostics) const {
         bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
         if (look.area_light || !aims || !bindings_.directed(l)) continue;
         Arena arena;
-        std::span<float*> out = run_probes(scene, look, arena);
-        dvec3 forward(current_from_space(scene, "shader", look.space_owner())[2]);
+        std::span<float*> out = run_probes(frame_, look, arena);
+        dvec3 forward(current_from_space(scene, frame_.pose, "shader", look.space_owner())[2]);
         bool before = false, behind = false;
         for (const LightOutputs& statement : bindings_.statements(l)) {
             if (statement.kind == rsl::kLightAmbient || statement.L[0] < 0) continue;

@@ -98,7 +98,7 @@ void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitB
     vec3 dx = turned(triple(from.dDdx, hit)), dy = turned(triple(from.dDdy, hit));
     vec3 dNdx, dNdy;
     if (back && square > 1e-12f && on_surface(grid) &&
-        SmoothSurface(grid.scene).bend_at(from, hit, dNdx, dNdy)) {
+        SmoothSurface(grid.scene, grid.pose).bend_at(from, hit, dNdx, dNdy)) {
         const vec3 N = axis / std::sqrt(square);
         auto bent = [&](vec3 dN) {
             return (dN * glm::dot(in, N) + N * glm::dot(in, dN)) * (2 * after);
@@ -297,7 +297,7 @@ void NestedRays::see_beyond(const raytrace::RayBatch& rays, const raytrace::HitB
 
 void NestedRays::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
                      ThreadMemory& memory, std::span<SeenByRay> seen) {
-    const raytrace::Accel& accel = frame_.scene.accel;
+    const raytrace::Accel& accel = frame_.pose.accel;
     for (size_t r = 0; r < rays.count; ++r) seen[rays.slot[r]] = {};
     Arena::Mark mark = memory.arena.mark();
     for (int layer = 0; rays.count > 0; ++layer) {

@@ -81,7 +81,7 @@ inline constexpr float kSeesLight = 0.1f;
 // the Shadow Terminator, Ray Tracing Gems II, 2021).
 class SmoothSurface {
   public:
-    explicit SmoothSurface(const Scene& scene) : scene_(scene) {}
+    SmoothSurface(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
     // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
     // both accounts, where it is flat, and where the surface is hollow.
     vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
@@ -101,6 +101,7 @@ class SmoothSurface {
     const uint32_t* corners(uint32_t primitive) const;
 
     const Scene& scene_;
+    const Pose& pose_;
     Row row_;
 };
 

@@ -50,7 +50,7 @@ void to_current(rsl::BaseType type, const Asker& asker, const ShaderInstance& lo
     uint32_t row = owner.node == kNone ? surface_row(asker) : kNone;
     if (row != kNone && asker.scene.surfaces[row].look == look.index)
         owner.node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
-    to_current(type, current_from_space(asker.scene, "shader", owner), values, answer);
+    to_current(type, current_from_space(asker.scene, asker.pose, "shader", owner), values, answer);
 }
 
 rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
@@ -80,15 +80,17 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
             bool read = grid.look == &look && v.column != kNoColumn &&
                         grid.columns.size() > size_t(v.column + first + c);
             const float* column = read ? grid.columns[v.column + first + c] : nullptr;
-            answer[c] =
-                column ? column[point] : varying_at(asker.scene, grid.hits, hit, which, first + c);
+            answer[c] = column
+                            ? column[point]
+                            : varying_at(asker.scene, asker.pose, grid.hits, hit, which, first + c);
         }
         rsl::BaseType type = parameter_type(look.layers[layer], v.name);
         if (rsl::is_spatial(type) && !v.of_displacement()) {  // the mesh's: in the object's space
             uint32_t shape = asker.scene.surfaces[row].shape;
             const double values[] = {answer[0], answer[1], answer[2]};
             to_current(type,
-                       current_from_space(asker.scene, "object", asker.scene.shapes[shape].node),
+                       current_from_space(asker.scene, asker.pose, "object",
+                                          asker.scene.shapes[shape].node),
                        values, answer);
         }
         return true;
@@ -105,7 +107,7 @@ bool from_source(const Asker& asker, const ShaderInstance& look, const ParamSour
         return true;
     }
     if (!source.value.present()) return false;
-    const double* values = &asker.scene.values[source.value.offset];
+    const double* values = &asker.pose.values[source.value.offset];
     uint32_t count = source.value.count, width = uint32_t(rsl::component_count(type.base));
     auto number = [&](uint32_t c) {
         if (source.by_columns && width == 16) c = c % 4 * 4 + c / 4;
@@ -270,10 +272,10 @@ bool ask_the_same(const jit::ServiceCall& call, int first) {
 
 }  // namespace
 
-void answer_query(const Scene& scene, const ShaderInstance& look, const Grid* grid,
-                  const jit::ServiceCall& call) {
+void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
+                  const Grid* grid, const jit::ServiceCall& call) {
     auto answer_at = [&](int lane, Answer& answer) {
-        Asker asker{scene, look, grid};
+        Asker asker{scene, pose, look, grid};
         if (grid) asker.point = std::min(size_t(call.first + lane), grid->count() - 1);
         return answer_question(QueryKind(integer(call, 0, lane)), asker, question_of(call, lane),
                                answer);

@@ -16,6 +16,7 @@ struct Surface;
 // Who asks: a point of a grid, or nobody in particular (frame rate).
 struct Asker {
     const Scene& scene;
+    const Pose& pose;
     const ShaderInstance& look;
     const Grid* grid = nullptr;
     size_t point = 0;  // of the grid
@@ -41,8 +42,8 @@ using Answer = std::array<float, 16>;
 
 // The service; lanes without an answer get known = 0.
 // `grid`: of the points that ask; null at frame rate.
-void answer_query(const Scene& scene, const ShaderInstance& look, const Grid* grid,
-                  const jit::ServiceCall& call);
+void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
+                  const Grid* grid, const jit::ServiceCall& call);
 
 // Rows of attribute(), option(), rendererinfo() and rayinfo(): facts by their customary names; a
 // prefix "Ri:" is the same without it. False where the name or the type is not known.

@@ -56,7 +56,7 @@ const ShaderInstance& look_of(const Asker& asker) {
 
 // The material or the mesh may say so.
 bool one_sided(const Asker& asker) {
-    return asker.scene.geometry[asker.grid->hits.instance[asker.hit()]].hide_backfaces;
+    return asker.scene.rows[asker.grid->hits.instance[asker.hit()]].hide_backfaces;
 }
 Fact sides(const Asker& asker) {
     return one_sided(asker) ? 1.0 : 2.0;
@@ -128,24 +128,24 @@ constexpr Row kAttributes[] = {
 // ---- option -------------------------------------------------------------------------------------
 
 Fact format(const Asker& asker) {
-    return {double(asker.scene.view.width), double(asker.scene.view.height), 1.0};
+    return {double(asker.pose.view.width), double(asker.pose.view.height), 1.0};
 }
 Fact frame_aspect(const Asker& asker) {
-    return asker.scene.view.half_width / asker.scene.view.half_height;
+    return asker.pose.view.half_width / asker.pose.view.half_height;
 }
 Fact shutter(const Asker& asker) {
-    return {asker.scene.time, asker.scene.time + asker.scene.shutter};
+    return {asker.pose.time, asker.pose.time + asker.pose.shutter};
 }
 Fact clipping(const Asker& asker) {
-    return {asker.scene.view.znear, asker.scene.view.zfar};
+    return {asker.pose.view.znear, asker.pose.view.zfar};
 }
 Fact frame(const Asker& asker) {
     double asked = asker.scene.options.frame_rate;
     double rate = asked > 0 ? asked : play_range(*asker.scene.description).rate;
-    return std::round(asker.scene.time * rate);
+    return std::round(asker.pose.time * rate);
 }
 Fact projection(const Asker& asker) {
-    return std::string_view(asker.scene.view.orthographic ? "orthographic" : "perspective");
+    return std::string_view(asker.pose.view.orthographic ? "orthographic" : "perspective");
 }
 Fact scene_file(const Asker& asker) {
     return std::string_view(asker.scene.description->path);

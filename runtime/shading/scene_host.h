@@ -13,13 +13,15 @@ class LightRecords;
 class Prints;
 class RayServices;
 struct Grid;
+struct Pose;
 struct Scene;
 struct ShaderInstance;
 
 // A shader instance of a scene at frame rate: no points, no lights, no rays.
 class SceneHost : public KernelHost {
   public:
-    SceneHost(const Scene& scene, const ShaderInstance& look) : scene_(scene), look_(look) {}
+    SceneHost(const Scene& scene, const Pose& pose, const ShaderInstance& look)
+        : scene_(scene), pose_(pose), look_(look) {}
 
     TextureStore& textures() const override;
     TextureFilter best_filter() const override;
@@ -35,6 +37,7 @@ class SceneHost : public KernelHost {
 
   protected:
     const Scene& scene_;
+    const Pose& pose_;
     const ShaderInstance& look_;
 
   private:
@@ -44,9 +47,9 @@ class SceneHost : public KernelHost {
 // A kernel that moves vertices: "current" is the space of `object`, a scene node.
 class VertexHost : public SceneHost {
   public:
-    VertexHost(const Scene& scene, const ShaderInstance& look, uint32_t object,
+    VertexHost(const Scene& scene, const Pose& pose, const ShaderInstance& look, uint32_t object,
                PrintedLines& prints)
-        : SceneHost(scene, look), object_(object), prints_(prints) {}
+        : SceneHost(scene, pose, look), object_(object), prints_(prints) {}
 
     dmat4 current_from_space(std::string_view name, size_t point) const override;
     void print(const jit::ServiceCall& call) override;

@@ -33,26 +33,26 @@ TextureFilter SceneHost::best_filter() const {
     return scene_.options.texture_filter;
 }
 dmat4 SceneHost::current_from_space(std::string_view name, size_t) const {
-    return kinora::current_from_space(scene_, name, look_.space_owner());
+    return kinora::current_from_space(scene_, pose_, name, look_.space_owner());
 }
 dmat4 SceneHost::world_from_current() const {
-    return glm::inverse(kinora::current_from_space(scene_, "world", kNone));
+    return glm::inverse(kinora::current_from_space(scene_, pose_, "world", kNone));
 }
 void SceneHost::print(const jit::ServiceCall& call) {
     printed_.add(call, 0);
 }
 void SceneHost::query(const jit::ServiceCall& call) {
-    answer_query(scene_, look_, nullptr, call);
+    answer_query(scene_, pose_, look_, nullptr, call);
 }
 void SceneHost::texture3d(const jit::ServiceCall& call) {
-    look_up_points(scene_, call);
+    look_up_points(scene_, pose_, call);
 }
 void SceneHost::photons(const jit::ServiceCall& call) {
-    look_up_photons(scene_, call);
+    look_up_photons(scene_, pose_, call);
 }
 
 dmat4 VertexHost::current_from_space(std::string_view name, size_t) const {
-    return object_from_space(scene_, name, object_);
+    return object_from_space(scene_, pose_, name, object_);
 }
 void VertexHost::print(const jit::ServiceCall& call) {
     for (int lane = 0; lane < call.lanes; ++lane)
@@ -60,7 +60,7 @@ void VertexHost::print(const jit::ServiceCall& call) {
 }
 
 GridHost::GridHost(Grid& grid, const GridServices& services)
-    : SceneHost(grid.scene, *grid.look), grid_(grid), services_(services) {}
+    : SceneHost(grid.scene, grid.pose, *grid.look), grid_(grid), services_(services) {}
 
 // "shader" and "object" of a surface are those of the shape that wears it.
 dmat4 GridHost::current_from_space(std::string_view name, size_t point) const {
@@ -69,7 +69,7 @@ dmat4 GridHost::current_from_space(std::string_view name, size_t point) const {
         uint32_t hit = grid_.points[std::min(point, grid_.count() - 1)];
         owner.node = scene_.shapes[scene_.surfaces[grid_.hits.instance[hit]].shape].node;
     }
-    return kinora::current_from_space(scene_, name, owner);
+    return kinora::current_from_space(scene_, pose_, name, owner);
 }
 // While rays are only noted (RayCollector), nothing is printed, baked or lit.
 void GridHost::print(const jit::ServiceCall& call) {
@@ -109,7 +109,7 @@ void GridHost::ray_limit(const jit::ServiceCall& call) {
     end_loops(grid_, call);
 }
 void GridHost::query(const jit::ServiceCall& call) {
-    answer_query(scene_, look_, &grid_, call);
+    answer_query(scene_, pose_, look_, &grid_, call);
 }
 void GridHost::bake3d(const jit::ServiceCall& call) {
     if (is_noting(grid_)) return;

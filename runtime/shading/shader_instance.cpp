@@ -48,19 +48,6 @@ FrameInput parameter_input(const ShaderInstance& look, const rsl::KernelKey& key
     return input;
 }
 
-void ShaderInstance::update_for_vertices(const FrameContext& context, uint32_t object) {
-    for (size_t s = 0; s < spaces.size(); ++s)
-        current_from_space[s] = object_from_space(context.scene, spaces[s], object);
-    full.update(context, *this);
-}
-
-void ShaderInstance::update(const FrameContext& context) {
-    for (size_t s = 0; s < spaces.size(); ++s)
-        current_from_space[s] = kinora::current_from_space(context.scene, spaces[s], space_owner());
-    full.update(context, *this);
-    if (opacity) opacity->update(context, *this);
-}
-
 dvec3 parameter_in_current(rsl::BaseType type, const dmat4& current_from_shader, const double* v) {
     dvec3 value(v[0], v[1], v[2]);
     if (type == rsl::BaseType::Point) return dvec3(current_from_shader * dvec4(value, 1.0));
@@ -73,9 +60,9 @@ namespace {
 
 class SceneNumbers : public FrameNumbers {
   public:
-    SceneNumbers(const FrameContext& context, const ShaderInstance& look,
+    SceneNumbers(const FrameContext& context, std::span<const dmat4> current_from_space,
                  std::span<const FrameInput> inputs)
-        : context_(context), look_(look), inputs_(inputs) {}
+        : context_(context), current_from_space_(current_from_space), inputs_(inputs) {}
     float number(size_t index) const override;
 
   private:
@@ -83,14 +70,14 @@ class SceneNumbers : public FrameNumbers {
     const dmat4& space_from_current(uint32_t space) const;
 
     const FrameContext& context_;
-    const ShaderInstance& look_;
+    std::span<const dmat4> current_from_space_;
     std::span<const FrameInput> inputs_;
     mutable uint32_t inverted_ = kNone;  // the space of
     mutable dmat4 inverse_{};
 };
 
 const dmat4& SceneNumbers::space_from_current(uint32_t space) const {
-    if (inverted_ != space) inverse_ = glm::inverse(look_.current_from_space[space]);
+    if (inverted_ != space) inverse_ = glm::inverse(current_from_space_[space]);
     inverted_ = space;
     return inverse_;
 }
@@ -98,30 +85,30 @@ const dmat4& SceneNumbers::space_from_current(uint32_t space) const {
 float SceneNumbers::number(size_t index) const {
     using Source = FrameInput::Source;
     const FrameInput& input = inputs_[index];
-    const Scene& scene = context_.scene;
+    const Pose& pose = context_.pose;
     switch (input.source) {
         case Source::Fixed:
             return input.fixed;
         case Source::Value:
-            return float(scene.values[input.index]);
+            return float(pose.values[input.index]);
         case Source::Spatial: {
-            const dmat4& m = look_.current_from_space[input.space];
+            const dmat4& m = current_from_space_[input.space];
             return float(
-                parameter_in_current(input.type, m, &scene.values[input.index])[input.component]);
+                parameter_in_current(input.type, m, &pose.values[input.index])[input.component]);
         }
         case Source::Space: {
             int row = input.component / 4, column = input.component % 4;
             return float((input.inverse ? space_from_current(input.index)
-                                        : look_.current_from_space[input.index])[column][row]);
+                                        : current_from_space_[input.index])[column][row]);
         }
         case Source::Time:
-            return float(scene.time);
+            return float(pose.time);
         case Source::Shutter:
-            return float(scene.shutter);
+            return float(pose.shutter);
         case Source::Near:
-            return float(scene.view.znear);
+            return float(pose.view.znear);
         case Source::Far:
-            return float(scene.view.zfar);
+            return float(pose.view.zfar);
         case Source::Eye:
             return float(context_.eye[input.component]);
     }
@@ -130,12 +117,42 @@ float SceneNumbers::number(size_t index) const {
 
 }  // namespace
 
-void SceneKernel::update(const FrameContext& context, const ShaderInstance& look) {
-    SceneHost host(context.scene, look);
-    run_frame(SceneNumbers(context, look, inputs), host, {}, context.stop);
+namespace {
+
+void run_frame_kernel(const SceneKernel& kernel, const FrameContext& context, SceneHost& host,
+                      std::span<const dmat4> current_from_space, FrameBlock& block) {
+    kernel.run_frame(block, SceneNumbers(context, current_from_space, kernel.inputs), host, {},
+                     context.stop);
     host.printed().show();
-    prints_asked = host.printed().asked();
-    prints_shown = host.printed().shown();
+}
+
+void run_full(const ShaderInstance& look, const FrameContext& context, InstanceFrame& frame) {
+    SceneHost host(context.scene, context.pose, look);
+    run_frame_kernel(look.full, context, host, frame.current_from_space, frame.full);
+    frame.prints_asked = host.printed().asked();
+    frame.prints_shown = host.printed().shown();
+}
+
+}  // namespace
+
+void ShaderInstance::update_for_vertices(const FrameContext& context, uint32_t object,
+                                         InstanceFrame& frame) const {
+    frame.current_from_space.resize(spaces.size());
+    for (size_t s = 0; s < spaces.size(); ++s)
+        frame.current_from_space[s] =
+            object_from_space(context.scene, context.pose, spaces[s], object);
+    run_full(*this, context, frame);
+}
+
+void ShaderInstance::update(const FrameContext& context, InstanceFrame& frame) const {
+    frame.current_from_space.resize(spaces.size());
+    for (size_t s = 0; s < spaces.size(); ++s)
+        frame.current_from_space[s] =
+            current_from_space(context.scene, context.pose, spaces[s], space_owner());
+    run_full(*this, context, frame);
+    if (!opacity) return;
+    SceneHost host(context.scene, context.pose, *this);
+    run_frame_kernel(*opacity, context, host, frame.current_from_space, frame.opacity);
 }
 
 }  // namespace kinora

@@ -18,11 +18,13 @@
 
 namespace kinora {
 
+struct Pose;
 struct Scene;
 
 // What frame-rate inputs are computed from.
 struct FrameContext {
     const Scene& scene;
+    const Pose& pose;
     dvec3 eye{0.0};                          // in "current"
     const std::atomic<int>* stop = nullptr;  // KernelCall::stop
 };
@@ -53,13 +55,15 @@ struct FrameInput {
 struct ShaderInstance;
 
 // A kernel whose frame-rate inputs come from a scene.
-class SceneKernel : public BoundKernel {
-  public:
-    // Runs the frame kernel and fills the frame block. No allocation.
-    void update(const FrameContext& context, const ShaderInstance& look);
+struct SceneKernel : BoundKernel {
+    std::vector<FrameInput> inputs;  // of the frame kernel
+};
 
-    std::vector<FrameInput> inputs;               // of the frame kernel
-    uint64_t prints_asked = 0, prints_shown = 0;  // its lines, the last time
+// A shader instance in one frame: what its frame kernels gave.
+struct InstanceFrame {
+    std::vector<dmat4> current_from_space;  // of ShaderInstance::spaces
+    FrameBlock full, opacity;
+    uint64_t prints_asked = 0, prints_shown = 0;  // by the full kernel's, the last time
 };
 
 enum class ShaderInstanceKind : uint8_t {
@@ -99,7 +103,6 @@ struct ShaderInstance {
     SceneKernel full;
     std::optional<SceneKernel> opacity;  // for shadow rays, unless opaque
     std::vector<std::string> spaces;     // names of frame-rate spaces the kernels read
-    std::vector<dmat4> current_from_space;
     bool hide_backfaces = false;
     uint32_t volume = 0;    // an interior's or exterior's number: runtime/scene/medium.h
     bool exterior = false;  // that volume surrounds its object
@@ -112,9 +115,11 @@ struct ShaderInstance {
     SpaceOwner space_owner() const {
         return {node, kind == ShaderInstanceKind::Light && !area_light};
     }
-    void update(const FrameContext& context);
+    // Runs the frame kernels. Allocates nothing but in the first frame.
+    void update(const FrameContext& context, InstanceFrame& frame) const;
     // The same for a kernel of vertices: "current" is the space of `object`, a scene node.
-    void update_for_vertices(const FrameContext& context, uint32_t object);
+    void update_for_vertices(const FrameContext& context, uint32_t object,
+                             InstanceFrame& frame) const;
 };
 
 // Where a parameter's frame-rate number comes from; `space` of a Spatial one is not set.

@@ -36,7 +36,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
 
 // Each object is made of those before it. Kernels alone lead back up: they call services.
 struct Shading::Objects {
-    explicit Objects(const Scene& scene) : frame{scene} {}
+    Objects(const Scene& scene, const Pose& pose) : frame{scene, pose} {}
 
     ShadingFrame frame;
     ThreadMemories threads;
@@ -50,7 +50,7 @@ struct Shading::Objects {
     GatherRays gathers{frame, hits};
     Imager imager{frame, threads, kernels};
     Prints prints;
-    Bakes bakes{frame.scene};
+    Bakes bakes{frame.scene, frame.pose};
     GridServices services{lights, rays, gathers, prints, bakes};
     bool aims_reported = false;
     // What the scene's shaders need of all frames: these do not look at each of them for it.
@@ -80,12 +80,11 @@ std::vector<bool> looks_that_run(const Scene& scene, const LightRecords& lights)
 
 }  // namespace
 
-Shading::Shading(const Scene& scene) {
-    for (size_t l = 0; l < scene.shader_instances.size(); ++l)
-        scene.shader_instances[l]->index = uint32_t(l);
-    objects_ = std::make_unique<Objects>(scene);
+Shading::Shading(const Scene& scene, const Pose& pose) {
+    objects_ = std::make_unique<Objects>(scene, pose);
     const auto& looks = scene.shader_instances;
     ShadingFrame& frame = objects_->frame;
+    frame.instances.resize(looks.size());
     frame.any_transparent = std::ranges::any_of(looks, [](const auto& look) {
         return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
     });
@@ -101,20 +100,19 @@ Shading::~Shading() = default;
 
 namespace {
 
-// Brings the looks that run, or all, to the scene's time.
-void update_looks(const Scene& scene, const std::vector<bool>& run, bool all,
-                  const std::atomic<int>* stop) {
-    FrameContext context{.scene = scene, .stop = stop};
+// Brings the looks that run, or all, to the pose's time.
+void update_looks(ShadingFrame& frame, const std::vector<bool>& run, bool all) {
+    FrameContext context{.scene = frame.scene, .pose = frame.pose, .stop = frame.stop};
     for (size_t l = 0; l < run.size(); ++l)
-        if (all || run[l]) scene.shader_instances[l]->update(context);
+        if (all || run[l]) frame.scene.shader_instances[l]->update(context, frame.instances[l]);
 }
 
 void set_view(ShadingFrame& frame) {
     const Scene& scene = frame.scene;
-    const raytrace::Camera& view = scene.view;
+    const raytrace::Camera& view = frame.pose.view;
     frame.camera_from_accel = mat3(glm::transpose(dmat3(view.right, view.up, view.forward)));
     frame.eye = vec3(view.eye);
-    const CameraSource& camera = scene.cameras[scene.camera];
+    const CameraSource& camera = scene.cameras[frame.pose.camera];
     bool has_end = scene.description->cameras[camera.definition].zfar.present();
     frame.far_distance = has_end ? float(view.zfar) : float(glm::length(view.eye) + scene.size);
 }
@@ -158,7 +156,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     objects_->prints.begin_frame(threads.size());
     objects_->bakes.begin_frame(threads.size());
     const bool all = !std::exchange(objects_->all_ran, true) || all_inputs;
-    update_looks(frame.scene, objects_->looks_run, all, frame.stop);
+    update_looks(frame, objects_->looks_run, all);
     set_view(frame);
     objects_->lights.begin_frame(all_inputs);
     frame.miss_distance = objects_->fills_space ? frame.far_distance : 0.0f;

@@ -13,14 +13,14 @@ namespace kinora {
 // Whether some shader of the scene reads the size of what a pixel shows; else rays carry none.
 bool reads_footprints(const Scene& scene);
 
-// Wavefront shading (docs/decisions.md#lanes-and-wavefronts). One per scene; its memory is kept
+// Wavefront shading (docs/decisions.md#lanes-and-wavefronts). One per pose; its memory is kept
 // from frame to frame.
 class Shading : public raytrace::SurfaceShading {
   public:
-    explicit Shading(const Scene& scene);
+    Shading(const Scene& scene, const Pose& pose);
     ~Shading() override;
 
-    // Before the first shade() of a frame at Scene::time: sizes the threads' memory, runs the frame
+    // Before the first shade() of a frame at Pose::time: sizes the threads' memory, runs the frame
     // kernels. Rays see through max_layers surfaces, as those of the camera do. `all_inputs`: what
     // no kernel reads is wanted, too.
     void begin_frame(uint32_t seed, int max_layers, bool all_inputs = false);

@@ -8,9 +8,11 @@
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
 #include "runtime/shading/insight.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
+struct Pose;
 struct Scene;
 
 // How often a point may ask for the lights at points of its own, some 8 KB each time: a march may,
@@ -34,6 +36,8 @@ struct ShadingCounters {
 // What is the same for all that is shaded in a frame. Set by Shading before the first hit.
 struct ShadingFrame {
     const Scene& scene;
+    const Pose& pose;
+    std::vector<InstanceFrame> instances = {};  // of Scene::shader_instances
     mat3 camera_from_accel{1.0f};
     vec3 eye{0.0f};  // accel space
     uint32_t seed = 0;

@@ -31,17 +31,18 @@ vec3 unit(vec3 v) {
 void SmoothSurface::enter(uint32_t row) {
     const Surface& surface = scene_.surfaces[row];
     const Shape& shape = scene_.shapes[surface.shape];
+    const ShapePose& stands = pose_.shapes[surface.shape];
     const MeshGroup& group = scene_.meshes[shape.mesh].groups[surface.group];
     row_ = {row,
             group.normal_corners,
             group.triangles,
-            shape.rest_normals,
-            shape.rest_positions,
+            stands.shown_normals,
+            stands.shown_positions,
             mat3(1.0f),
             mat3(1.0f)};
     if (shape.kind != raytrace::GeometryKind::Instanced) return;
-    row_.from_rest = mat3(dmat3(shape.world));
-    row_.normals_from_rest = normal_matrix(shape.world, shape.mirrored);
+    row_.from_rest = mat3(dmat3(stands.world));
+    row_.normals_from_rest = normal_matrix(stands.world, stands.mirrored);
 }
 
 // Indices of its three normals; null where it has none.

@@ -211,7 +211,7 @@ class RayServices::Passing {
           grid_(grid),
           lanes_(lanes),
           transmission_(transmission),
-          smooth_(frame.scene),
+          smooth_(frame.scene, frame.pose),
           ways_(grid.memory.arena.allocate_span<Way>(kGridPoints)),
           through_(grid.memory.arena.allocate_span<vec3>(kGridPoints)) {}
 
@@ -265,7 +265,7 @@ class RayServices::Passing {
         return smooth_.way_from(lit, end.hit, dir);
     }
     bool is_free(const RayStart& end, vec3 up) const {
-        return up == vec3(0.0f) || is_way_free(frame_.scene.accel, end.P, end.error, end.Ng, up,
+        return up == vec3(0.0f) || is_way_free(frame_.pose.accel, end.P, end.error, end.Ng, up,
                                                grid_.memory.counters.trace);
     }
     void add_ray_of(raytrace::RayBatch& rays, const Way& w, uint32_t slot) {
@@ -391,7 +391,7 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
             for (uint8_t lane : lane_of) by_distance |= lanes.number(Falloff, lane) > 0;
             std::span<float> weight =
                 memory.arena.allocate_span<float>(by_distance ? kGridPoints : 0);
-            if (by_distance) find_distances(frame_.scene.accel, nested->rays, memory, weight);
+            if (by_distance) find_distances(frame_.pose.accel, nested->rays, memory, weight);
             transmission_.pass(nested->rays, grid.ray, memory, through.first(lane_of.size()));
             for (size_t i = 0; i < lane_of.size(); ++i) {
                 int lane = lane_of[i];

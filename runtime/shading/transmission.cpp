@@ -68,8 +68,9 @@ void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& from
     for (int round = 0; rays.count > 0; ++round) {
         NestedWavefront nested(memory);
         nested->hits.reserve(kGridPoints);
-        const raytrace::HitBatch& hits = raytrace::trace(
-            scene.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits, memory.counters.trace);
+        const raytrace::HitBatch& hits =
+            raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits,
+                            memory.counters.trace);
         if (!scene.volumes.empty()) pass_ends(rays, hits, tag, memory, through);
         if (hits.count == 0) break;
         if (round == frame_.max_layers) {
@@ -89,7 +90,7 @@ void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& from
             if (light == vec3(0.0f)) continue;
             vec3 end = triple(rays.org, r) + triple(rays.dir, r) * rays.tfar[r];
             uint32_t medium = medium_behind(scene, hits, h);
-            raytrace::pass_through(scene.accel, rays, kept, hits, h);
+            raytrace::pass_through(frame_.pose.accel, rays, kept, hits, h);
             if (std::isfinite(rays.tfar[kept])) aim_at(rays, kept, end);
             rays.medium[kept++] = medium;
         }
@@ -125,7 +126,7 @@ void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemo
     std::span<const uint32_t> which(all, rays.count);
     // Most rays meet nothing at all. Where objects have volumes, such a ray may run through one.
     if (frame_.any_transparent && frame_.scene.volumes.empty()) {
-        raytrace::occluded(frame_.scene.accel, rays, raytrace::kMaskAll, blocked,
+        raytrace::occluded(frame_.pose.accel, rays, raytrace::kMaskAll, blocked,
                            memory.counters.trace);
         size_t met = 0;
         for (uint32_t r = 0; r < rays.count; ++r) {
@@ -140,7 +141,7 @@ void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemo
 void Transmission::pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which,
                                 const RayTag& from, ThreadMemory& memory, std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
-    raytrace::occluded(frame_.scene.accel, rays, which, raytrace::kMaskOpaque, blocked,
+    raytrace::occluded(frame_.pose.accel, rays, which, raytrace::kMaskOpaque, blocked,
                        memory.counters.trace);
     size_t kept = 0;
     for (size_t i = 0; i < which.size(); ++i) {
@@ -224,7 +225,7 @@ ShadowQueue::ShadowQueue(const ShadingFrame& frame, Transmission& transmission,
       straight_(frame.scene.volumes.empty()),
       mask_(dims_ && straight_ ? raytrace::kMaskAll : raytrace::kMaskOpaque),
       accel_from_camera_(glm::transpose(frame.camera_from_accel)),
-      smooth_(frame.scene),
+      smooth_(frame.scene, frame.pose),
       rest_(memory) {
     rest_->rays.count = 0;
 }
@@ -352,7 +353,7 @@ uint32_t ShadowQueue::block(uint32_t lanes, uint32_t mask) {
     if (lanes == 0) return 0;
     packet_.active = lanes;
     std::fill_n(packet_.mask, raytrace::kPacket, mask);
-    return frame_.scene.accel.occluded16(packet_, memory_.counters.trace);
+    return frame_.pose.accel.occluded16(packet_, memory_.counters.trace);
 }
 
 void ShadowQueue::move(const Packet& from, int lane, Packet& to) {

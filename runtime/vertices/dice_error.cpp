@@ -91,41 +91,46 @@ void name_vertices(const Mesh& base, const DicedMesh& made,
         }
 }
 
-double longest_rigid(const Scene& scene, const WatchedEdges& watched, const Shape& shape) {
-    dmat4 to_accel = accel_from_rest(scene, shape, watched.anchor);
+double longest_rigid(const Scene& scene, const Pose& pose, const WatchedEdges& watched,
+                     const Shape& shape) {
+    dmat4 to_accel = accel_from_rest(scene, pose, shape, watched.anchor);
     dmat3 turn(to_accel);
     dvec3 move(to_accel[3]);
     double most = 0;
     for (size_t e = 0; e + 1 < watched.rest.size(); e += 2) {
         dvec3 from = turn * dvec3(watched.rest[e]) + move;
         dvec3 to = turn * dvec3(watched.rest[e + 1]) + move;
-        most = std::max(most, edge_pixels(scene.view, from, to));
+        most = std::max(most, edge_pixels(pose.view, from, to));
     }
     return most;
 }
 
-double longest_posed(const Scene& scene, WatchedEdges& watched, Shape& shape) {
+double longest_posed(const Scene& scene, Pose& pose, const WatchedEdges& watched, uint32_t shape,
+                     WatchedPose& stands) {
+    stands.morphed.resize(watched.vertices.size());
+    stands.posed.resize(watched.vertices.size());
     std::span<const vec4> rest = watched.rest;
-    if (shape.morph != kNone) {
-        morph_weights(*scene.description, scene.values, shape.morph, shape.morph_weights);
-        skin::deform(watched.morph, shape.morph_weights, watched.morphed, {});
-        rest = watched.morphed;
+    ShapePose& moved = pose.shapes[shape];
+    if (uint32_t morph = scene.shapes[shape].morph; morph != kNone) {
+        morph_weights(*scene.description, pose.values, morph, moved.morph_weights);
+        skin::deform(watched.morph, moved.morph_weights, stands.morphed, {});
+        rest = stands.morphed;
     }
-    move_by_joints(shape, watched.skin, rest, {}, watched.posed, {});
+    move_by_joints(moved, watched.skin, rest, {}, stands.posed, {});
     double most = 0;
     for (size_t e = 0; e + 1 < watched.ends.size(); e += 2)
-        most = std::max(most, edge_pixels(scene.view, combine(watched.ends[e], watched.posed),
-                                          combine(watched.ends[e + 1], watched.posed)));
+        most = std::max(most, edge_pixels(pose.view, combine(watched.ends[e], stands.posed),
+                                          combine(watched.ends[e + 1], stands.posed)));
     return most;
 }
 
 }  // namespace
 
-dmat4 accel_from_rest(const Scene& scene, const Shape& shape, dvec3 anchor) {
+dmat4 accel_from_rest(const Scene& scene, const Pose& pose, const Shape& shape, dvec3 anchor) {
     dmat4 from_anchor(1.0), to_accel(1.0);
     from_anchor[3] = dvec4(anchor, 1.0);
     to_accel[3] = dvec4(-scene.origin, 1.0);
-    return to_accel * (scene.nodes[shape.node].world * shape.conversion) * from_anchor;
+    return to_accel * (pose.nodes[shape.node].world * shape.conversion) * from_anchor;
 }
 
 void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8_t> diced,
@@ -142,15 +147,16 @@ void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8
         for (uint32_t end : edge) out.rest.push_back(made.mesh.positions[end]);
 }
 
-double dice_error(Scene& scene) {
+double dice_error(const Scene& scene, Pose& pose) {
     double most = 0;
-    for (const auto& watched : scene.watched)
-        for (uint32_t h : watched->shapes) {
-            Shape& shape = scene.shapes[h];
-            if (!watched->ends.empty() && watched->posed.empty()) continue;  // no scene yet
-            most = std::max(most, watched->posed.empty() ? longest_rigid(scene, *watched, shape)
-                                                         : longest_posed(scene, *watched, shape));
-        }
+    for (size_t w = 0; w < scene.watched.size(); ++w) {
+        const WatchedEdges& watched = *scene.watched[w];
+        const bool deforms = watched.deforms();
+        if (!watched.ends.empty() && !deforms) continue;  // no scene yet
+        for (uint32_t h : watched.shapes)
+            most = std::max(most, deforms ? longest_posed(scene, pose, watched, h, pose.watched[w])
+                                          : longest_rigid(scene, pose, watched, scene.shapes[h]));
+    }
     return scene.watched.empty() ? 0 : most / (kLongestEdge * scene.dice.pixels);
 }
 

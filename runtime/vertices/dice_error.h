@@ -24,7 +24,7 @@ struct WatchedEdges {
     std::vector<Stencil> ends;      // of `rest`, in pairs
     skin::SkinMesh skin;
     skin::Morph morph;
-    std::vector<vec4> morphed, posed;  // `posed`: accel space; empty where it does not deform
+    bool deforms() const { return skin.joint_count > 0; }
 };
 
 // Chooses the edges of a mesh that was diced, before its vertices are moved. `diced` marks the
@@ -34,13 +34,13 @@ struct WatchedEdges {
 void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8_t> diced,
                   const dmat3& world, bool deforms, size_t triangles, WatchedEdges& out);
 
-// The longest watched edge, in pixels of the scene's view, over what none is longer than where the
+// The longest watched edge, in pixels of the pose's view, over what none is longer than where the
 // mesh was diced for that view: 1 or less then, 2 where the camera is twice as near. 0 where
-// nothing was diced. The nodes, joints (`pose`) and the camera (`set_view`) are up to date. No
-// allocation.
-double dice_error(Scene& scene);
+// nothing was diced. The nodes, joints (`pose_joints`) and the camera (`set_view`) are up to date.
+// No allocation.
+double dice_error(const Scene& scene, Pose& pose);
 
 // Accel space from a mesh's positions minus `anchor`, as the shape's node stands.
-dmat4 accel_from_rest(const Scene& scene, const Shape& shape, dvec3 anchor);
+dmat4 accel_from_rest(const Scene& scene, const Pose& pose, const Shape& shape, dvec3 anchor);
 
 }  // namespace kinora

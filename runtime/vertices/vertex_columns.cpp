@@ -24,8 +24,8 @@ mat3 normal_matrix(const dmat3& l) {
 
 }  // namespace
 
-VertexSpace::VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_from_mesh,
-                         dvec3 anchor) {
+VertexSpace::VertexSpace(const Scene& scene, const Pose& pose, uint32_t node,
+                         const dmat4& object_from_mesh, dvec3 anchor) {
     dmat4 from_anchor(1.0);
     from_anchor[3] = dvec4(anchor, 1.0);
     object = object_from_mesh * from_anchor;
@@ -34,13 +34,13 @@ VertexSpace::VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_
     normals = normal_matrix(l);
     mesh_linear = mat3(back);
     mesh_normals = normal_matrix(back);
-    const raytrace::Camera& view = scene.view;
-    dmat4 object_from_world = glm::inverse(scene.nodes[node].world);
+    const raytrace::Camera& view = pose.view;
+    dmat4 object_from_world = glm::inverse(pose.nodes[node].world);
     eye_object = dvec3(object_from_world * dvec4(view.eye + scene.origin, 1.0));
     orthographic = view.orthographic;
     dvec3 forward = dvec3(view.world_from_camera[2]);
     axis = vec3(dmat3(object_from_world) * forward);
-    depth = vec3(glm::transpose(dmat3(scene.nodes[node].world)) * forward);
+    depth = vec3(glm::transpose(dmat3(pose.nodes[node].world)) * forward);
     double scale =
         orthographic ? std::cbrt(std::abs(glm::determinant(dmat3(object_from_world)))) : 1;
     pixel = view.width ? float(scale * 2 * view.half_width / view.width) : 0.0f;
@@ -50,10 +50,11 @@ namespace {
 
 class Wedges : public PointSource {
   public:
-    Wedges(const ShaderInstance& look, const VertexSource& source, const VertexSpace& space,
-           size_t begin, size_t end, Arena& arena)
+    Wedges(const ShaderInstance& look, const VertexSource& source, const Pose& pose,
+           const VertexSpace& space, size_t begin, size_t end, Arena& arena)
         : look_(look),
           source_(source),
+          pose_(pose),
           space_(space),
           begin_(begin),
           count_(end - begin),
@@ -130,7 +131,7 @@ class Wedges : public PointSource {
     }
 
     const float* value(const VertexAttribute& a, size_t w) const {
-        return &a.values[w * a.stride];  // a diced mesh has one entry a wedge
+        return &values_of(a, pose_)[w * a.stride];  // a diced mesh has one entry a wedge
     }
     void coordinates(size_t i, size_t w) {
         const float* st = value(*source_.st, w);
@@ -234,6 +235,7 @@ class Wedges : public PointSource {
 
     const ShaderInstance& look_;
     const VertexSource& source_;
+    const Pose& pose_;
     const VertexSpace& space_;
     size_t begin_, count_;
     Arena& arena_;
@@ -248,9 +250,9 @@ class Wedges : public PointSource {
 }  // namespace
 
 std::span<float*> fill_vertex_columns(const ShaderInstance& look, const VertexSource& source,
-                                      const VertexSpace& space, size_t begin, size_t end,
-                                      Arena& arena) {
-    Wedges wedges(look, source, space, begin, end, arena);
+                                      const Pose& pose, const VertexSpace& space, size_t begin,
+                                      size_t end, Arena& arena) {
+    Wedges wedges(look, source, pose, space, begin, end, arena);
     fill_columns(wedges, {end - begin, wedges.rows()});
     return wedges.rows();
 }

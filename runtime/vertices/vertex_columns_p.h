@@ -14,7 +14,8 @@ namespace kinora {
 
 // Between a mesh (minus its anchor) and the space of the node it is displaced in.
 struct VertexSpace {
-    VertexSpace(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor);
+    VertexSpace(const Scene& scene, const Pose& pose, uint32_t node, const dmat4& object_from_mesh,
+                dvec3 anchor);
 
     dmat4 object{1.0};   // object_from_mesh for positions minus the anchor
     mat3 linear{1.0f};   // its linear part
@@ -47,7 +48,7 @@ struct VertexSource {
 // are means over the triangles around a wedge; dPdu and dPdv are then laid into the plane of N, so
 // that calculatenormal(P) of what is not displaced is N and facets do not show.
 std::span<float*> fill_vertex_columns(const ShaderInstance& look, const VertexSource& source,
-                                      const VertexSpace& space, size_t begin, size_t end,
-                                      Arena& arena);
+                                      const Pose& pose, const VertexSpace& space, size_t begin,
+                                      size_t end, Arena& arena);
 
 }  // namespace kinora

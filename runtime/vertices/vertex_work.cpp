@@ -73,30 +73,13 @@ bool is_finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// Puts output parameters of a kernel into the attributes "vertex:NAME".
-void store_outputs(const jit::Kernel& kernel, std::span<float* const> out, size_t first,
-                   size_t count, PrimitiveGroup& group) {
-    for (size_t o = 0; o < kernel.outputs.size(); ++o) {
-        rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
-        if (key.kind != rsl::KeyKind::Aov) continue;
-        const std::string& name = rsl::name_of(key);
-        int c = rsl::number_index(key);
-        for (VertexAttribute& a : group.attributes) {
-            std::string_view semantic = a.semantic;
-            if (!semantic.starts_with("vertex:")) continue;
-            semantic.remove_prefix(7);
-            if (name != semantic || c >= int(a.stride)) continue;
-            for (size_t i = 0; i < count; ++i)
-                a.values[(first + i) * a.stride + size_t(c)] = out[o][i];
-        }
-    }
-}
-
 }  // namespace
 
 // What one call of run() works on.
 struct VertexWork::Pass {
     const Scene& scene;
+    Pose& pose;
+    VertexState& state;
     uint32_t node;
     VertexSpace space;
     std::span<vec4> positions, normals;
@@ -104,33 +87,37 @@ struct VertexWork::Pass {
     size_t stage = 0;
 };
 
+VertexState::VertexState(const VertexWork& work) {
+    size_t parts = 0;
+    for (const VertexWork::Group& group : work.groups_) {
+        auto& stages = groups.emplace_back();
+        for (size_t s = 0; s < VertexWork::kStages; ++s)
+            if (const ShaderInstance* look = group.use.looks[s])
+                stages[s].faults.resize(look->full.kernel().fault_sites.size() + 1);
+        parts = std::max(parts, group.made.position.size() / kPart + 1);
+    }
+    resize_pages(moved, work.wedge_count_);
+    resize_pages(bent, work.wedge_count_);
+    resize_pages(faces, work.triangle_count_);
+    resize_pages(before, work.key_of_normal_.size());
+    prints.resize(parts);
+    not_finite.resize(parts);
+}
+
 VertexWork::VertexWork(const Mesh& mesh, std::vector<DicedGroup> groups, std::vector<Use> uses) {
-    size_t triangles = 0;
     for (size_t g = 0; g < groups.size(); ++g) {
         Group& group = groups_.emplace_back();
         group.made = std::move(groups[g]);
         group.use = uses[g];
         group.first_wedge = uint32_t(wedge_count_);
-        group.first_triangle = triangles;
+        group.first_triangle = triangle_count_;
         group.corners = make_lists(group.made.corners, group.made.position.size());
-        for (size_t s = 0; s < kStages; ++s)
-            if (const ShaderInstance* look = group.use.looks[s])
-                group.faults[s].resize(look->full.kernel().fault_sites.size() + 1);
         wedge_count_ += group.made.position.size();
-        triangles += group.made.corners.size() / 3;
+        triangle_count_ += group.made.corners.size() / 3;
         resize_pages(group_of_wedge_, wedge_count_, uint32_t(g));
     }
     weld_positions(mesh);
     weld_normals(mesh);
-    resize_pages(moved_, wedge_count_);
-    resize_pages(bent_, wedge_count_);
-    resize_pages(faces_, triangles);
-    resize_pages(before_, mesh.normals.size());
-    size_t parts = 0;
-    for (const Group& group : groups_)
-        parts = std::max(parts, group.made.position.size() / kPart + 1);
-    prints_.resize(parts);
-    not_finite_.resize(parts);
 }
 
 void VertexWork::weld_positions(const Mesh& mesh) {
@@ -182,11 +169,18 @@ void VertexWork::weld_normals(const Mesh& mesh) {
     same_normal_ = make_lists(key_of_wedge, mesh.normals.size() + 1);
 }
 
-void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from_mesh, dvec3 anchor,
-                     std::span<vec4> positions, std::span<vec4> normals, bool mirrored) {
-    while (arenas_.size() < size_t(thread_count())) arenas_.emplace_back();
-    Pass pass{scene,     node,    VertexSpace(scene, node, object_from_mesh, anchor),
-              positions, normals, mirrored ? -1.0f : 1.0f};
+void VertexWork::run(const Scene& scene, Pose& pose, VertexState& state,
+                     const Vertices& vertices) const {
+    while (state.arenas.size() < size_t(thread_count())) state.arenas.emplace_back();
+    const std::span<vec4> normals = vertices.normals;
+    Pass pass{scene,
+              pose,
+              state,
+              vertices.node,
+              VertexSpace(scene, pose, vertices.node, vertices.object_from_mesh, vertices.anchor),
+              vertices.positions,
+              normals,
+              vertices.mirrored ? -1.0f : 1.0f};
     // Where the file gives none, normals are those of the triangles as they stand now.
     for (const Group& group : groups_)
         for (size_t w = 0; group.made.flat && w < group.made.normal.size(); ++w)
@@ -197,18 +191,21 @@ void VertexWork::run(const Scene& scene, uint32_t node, const dmat4& object_from
             run_stage(pass);
 }
 
-void VertexWork::run_stage(Pass& pass) {
+void VertexWork::run_stage(Pass& pass) const {
     find_faces(pass);
-    parallel_for(0, before_.size(), kGrain, [&](size_t begin, size_t end) {
-        for (size_t k = begin; k < end; ++k) before_[k] = face_sum(same_normal_.of(k));
+    VertexState& state = pass.state;
+    parallel_for(0, state.before.size(), kGrain, [&](size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k)
+            state.before[k] = face_sum(state.faces, same_normal_.of(k));
     });
-    for (Group& group : groups_) run_group(pass, group);
+    for (size_t g = 0; g < groups_.size(); ++g) run_group(pass, g);
     move_positions(pass);
     find_faces(pass);
     turn_normals(pass);
 }
 
-void VertexWork::find_faces(const Pass& pass) {
+void VertexWork::find_faces(const Pass& pass) const {
+    std::span<vec3> faces = pass.state.faces;
     std::span<const vec4> positions = pass.positions;
     for (const Group& group : groups_) {
         const std::vector<uint32_t>&c = group.made.corners, &p = group.made.position;
@@ -217,79 +214,87 @@ void VertexWork::find_faces(const Pass& pass) {
                 vec3 p0(positions[p[c[3 * t]]]);
                 vec3 e1 = vec3(positions[p[c[3 * t + 1]]]) - p0;
                 vec3 e2 = vec3(positions[p[c[3 * t + 2]]]) - p0;
-                faces_[group.first_triangle + t] = pass.winding * glm::cross(e1, e2);
+                faces[group.first_triangle + t] = pass.winding * glm::cross(e1, e2);
             }
         });
     }
 }
 
-vec3 VertexWork::face_sum(std::span<const uint32_t> wedges) const {
+vec3 VertexWork::face_sum(std::span<const vec3> faces, std::span<const uint32_t> wedges) const {
     vec3 sum(0.0f);
     for (uint32_t w : wedges) {
         const Group& group = groups_[group_of_wedge_[w]];
         for (uint32_t corner : group.corners.of(w - group.first_wedge))
-            sum += faces_[group.first_triangle + corner / 3];
+            sum += faces[group.first_triangle + corner / 3];
     }
     return sum;
 }
 
-void VertexWork::run_group(Pass& pass, Group& group) {
+void VertexWork::run_group(Pass& pass, size_t g) const {
+    const Group& group = groups_[g];
+    VertexState& state = pass.state;
+    VertexState::Stage& stage = state.groups[g][pass.stage];
     size_t count = group.made.position.size();
-    ShaderInstance* look = group.use.looks[pass.stage];
+    const ShaderInstance* look = group.use.looks[pass.stage];
     if (!look) {
-        std::fill_n(moved_.begin() + group.first_wedge, count, vec3(0.0f));
+        std::fill_n(state.moved.begin() + group.first_wedge, count, vec3(0.0f));
         return;
     }
-    look->update_for_vertices({pass.scene, pass.space.eye_object}, pass.node);
+    look->update_for_vertices({pass.scene, pass.pose, pass.space.eye_object}, pass.node,
+                              stage.frame);
     // Precise kernels run in the IEEE default, fast ones flush denormals
     // (docs/decisions.md#exact-arithmetic).
     bool fast = pass.scene.options.math == jit::math::Tier::Fast;
-    std::vector<uint8_t>& faults = group.faults[pass.stage];
+    std::vector<uint8_t>& faults = stage.faults;
     parallel_for(0, (count + kPart - 1) / kPart, 1, [&](size_t begin, size_t end) {
         std::optional<raytrace::DenormalGuard> flush;
         if (fast) flush.emplace();
-        Arena& arena = arenas_[size_t(thread_index())];
+        Arena& arena = state.arenas[size_t(thread_index())];
         for (size_t part = begin; part < end; ++part) {
             Arena::Mark mark = arena.mark();
             std::span<uint8_t> own = arena.allocate_span<uint8_t>(faults.size());
             std::fill(own.begin(), own.end(), uint8_t(0));
-            run_wedges(pass, group, part * kPart, std::min(count, (part + 1) * kPart), own,
-                       prints_[part]);
+            run_wedges(pass, g, part * kPart, std::min(count, (part + 1) * kPart), own,
+                       state.prints[part]);
             for (size_t s = 0; s < own.size(); ++s)
                 if (own[s]) std::atomic_ref(faults[s]).store(1, std::memory_order_relaxed);
             arena.release(mark);
         }
     });
-    PrintedLines& printed = group.printed[pass.stage];
+    PrintedLines& printed = stage.printed;
     printed.clear();
-    for (PrintedLines& prints : prints_) {
+    for (PrintedLines& prints : state.prints) {
         if (prints.asked() > 0) printed.add(std::move(prints));
         prints.clear();
     }
     printed.show();
-    for (uint32_t& n : not_finite_) not_finite_total_ += std::exchange(n, 0);
+    for (uint32_t& n : state.not_finite) state.not_finite_total += std::exchange(n, 0);
 }
 
-void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t end,
-                            std::span<uint8_t> faults, PrintedLines& prints) {
+void VertexWork::run_wedges(const Pass& pass, size_t g, size_t begin, size_t end,
+                            std::span<uint8_t> faults, PrintedLines& prints) const {
+    const Group& group = groups_[g];
+    VertexState& state = pass.state;
     const ShaderInstance& look = *group.use.looks[pass.stage];
     const jit::Kernel& kernel = look.full.kernel();
-    Arena& arena = arenas_[size_t(thread_index())];
+    Arena& arena = state.arenas[size_t(thread_index())];
     size_t count = end - begin;
     VertexSource source{group.made,
                         group.corners,
                         pass.positions,
                         pass.normals,
-                        std::span(faces_).subspan(group.first_triangle),
+                        std::span(state.faces).subspan(group.first_triangle),
                         group.use.st,
                         group.use.varying[pass.stage],
                         weld_of_position_};
-    std::span<float*> columns = fill_vertex_columns(look, source, pass.space, begin, end, arena);
+    std::span<float*> columns =
+        fill_vertex_columns(look, source, pass.pose, pass.space, begin, end, arena);
     std::span<float*> out = take_outputs(kernel, count, arena);
     // No lights: the set behind handle 0, which `lights` gives without a grid, is empty.
     const jit::RecordSet no_lights;
-    VertexHost host(pass.scene, look, pass.node, prints);
+    VertexHost host(pass.scene, pass.pose, look, pass.node, prints);
     look.full.run({.count = count,
+                   .frame = state.groups[g][pass.stage].frame.full,
                    .columns = columns,
                    .out = out,
                    .faults = faults,
@@ -303,26 +308,49 @@ void VertexWork::run_wedges(const Pass& pass, Group& group, size_t begin, size_t
         vec3 moved = P.at(out, i) - before, bent = N.at(out, i);
         bad += !is_finite(moved) || !is_finite(bent);
         size_t w = group.first_wedge + begin + i;
-        moved_[w] = is_finite(moved) ? pass.space.mesh_linear * moved : vec3(0);
-        bent_[w] = is_finite(bent) ? unit_or(pass.space.mesh_normals * bent, vec3(0)) : vec3(0);
+        state.moved[w] = is_finite(moved) ? pass.space.mesh_linear * moved : vec3(0);
+        state.bent[w] =
+            is_finite(bent) ? unit_or(pass.space.mesh_normals * bent, vec3(0)) : vec3(0);
     }
-    not_finite_[begin / kPart] = bad;
-    if (group.use.attributes) store_outputs(kernel, out, begin, count, *group.use.attributes);
+    state.not_finite[begin / kPart] = bad;
+    if (group.use.attributes) store_outputs(pass, group, out, begin, count);
 }
 
-void VertexWork::move_positions(const Pass& pass) {
+// Puts output parameters of a kernel into the attributes "vertex:NAME".
+void VertexWork::store_outputs(const Pass& pass, const Group& group, std::span<float* const> out,
+                               size_t first, size_t count) const {
+    const jit::Kernel& kernel = group.use.looks[pass.stage]->full.kernel();
+    for (size_t o = 0; o < kernel.outputs.size(); ++o) {
+        rsl::KernelKey key = rsl::key_of(kernel.outputs[o]);
+        if (key.kind != rsl::KeyKind::Aov) continue;
+        const std::string& name = rsl::name_of(key);
+        int c = rsl::number_index(key);
+        for (VertexAttribute& a : group.use.attributes->attributes) {
+            std::string_view semantic = a.semantic;
+            if (!semantic.starts_with("vertex:")) continue;
+            semantic.remove_prefix(7);
+            if (name != semantic || c >= int(a.stride)) continue;
+            std::vector<float>& to =
+                a.output == kNone ? a.values : pass.pose.vertex_outputs[a.output];
+            for (size_t i = 0; i < count; ++i) to[(first + i) * a.stride + size_t(c)] = out[o][i];
+        }
+    }
+}
+
+void VertexWork::move_positions(const Pass& pass) const {
     parallel_for(0, pass.positions.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t p = begin; p < end; ++p) {
             std::span<const uint32_t> wedges = welds_.of(weld_of_position_[p]);
             if (wedges.empty()) continue;
             vec3 sum(0.0f);
-            for (uint32_t w : wedges) sum += moved_[w];
+            for (uint32_t w : wedges) sum += pass.state.moved[w];
             pass.positions[p] += vec4(sum / float(wedges.size()), 0.0f);
         }
     });
 }
 
-void VertexWork::turn_normals(const Pass& pass) {
+void VertexWork::turn_normals(const Pass& pass) const {
+    const VertexState& state = pass.state;
     parallel_for(0, pass.normals.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t n = begin; n < end; ++n) {
             uint32_t key = key_of_normal_[n];
@@ -333,31 +361,34 @@ void VertexWork::turn_normals(const Pass& pass) {
             const ShaderInstance* look = group.use.looks[pass.stage];
             if (look && look->lowered.bends_N) {
                 vec3 sum(0.0f);
-                for (uint32_t w : wedges) sum += bent_[w];
+                for (uint32_t w : wedges) sum += state.bent[w];
                 normal = unit_or(sum, normal);
             } else {
-                vec3 after = face_sum(wedges);
-                bool displaced = pass.stage == kStages - 1 && after != before_[key];
+                vec3 after = face_sum(state.faces, wedges);
+                bool displaced = pass.stage == kStages - 1 && after != state.before[key];
                 bool anew = displaced || (look && group.made.flat);
-                normal = unit_or(anew ? after : turned(normal, before_[key], after), normal);
+                normal = unit_or(anew ? after : turned(normal, state.before[key], after), normal);
             }
             pass.normals[n] = vec4(normal, 0.0f);
         }
     });
 }
 
-void VertexWork::report(const MeshDefinition& mesh, Diagnostics& diagnostics) {
-    for (Group& group : groups_)
+void VertexWork::report(const MeshDefinition& mesh, VertexState& state,
+                        Diagnostics& diagnostics) const {
+    for (size_t g = 0; g < groups_.size(); ++g)
         for (size_t s = 0; s < kStages; ++s) {
-            if (!group.use.looks[s]) continue;
-            group.printed[s].report(group.use.looks[s]->shader().name, diagnostics);
-            group.printed[s].clear();
+            const ShaderInstance* look = groups_[g].use.looks[s];
+            if (!look) continue;
+            VertexState::Stage& stage = state.groups[g][s];
+            stage.printed.report(look->shader().name, diagnostics);
+            stage.printed.clear();
             auto faulted = [&](size_t site) {
-                return std::exchange(group.faults[s][site], uint8_t(0)) != 0;
+                return std::exchange(stage.faults[site], uint8_t(0)) != 0;
             };
-            report_faults(group.use.looks[s]->full.kernel(), faulted, diagnostics);
+            report_faults(look->full.kernel(), faulted, diagnostics);
         }
-    if (uint32_t count = std::exchange(not_finite_total_, 0))
+    if (uint32_t count = std::exchange(state.not_finite_total, 0))
         diagnostics.report(Code::VERTEX_NON_FINITE, mesh.where, count, mesh.id);
 }
 

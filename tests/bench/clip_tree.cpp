@@ -52,21 +52,21 @@ double cpu_ms() {
 
 // ---- the clip -----------------------------------------------------------------------------------
 
-using Pose = std::vector<std::vector<vec4>>;  // positions by row; of rows that deform
+using Vertices = std::vector<std::vector<vec4>>;  // positions by row; of rows that deform
 
 struct Frame {
     std::vector<Geometry> rows;
-    Pose pose;
+    Vertices pose;
     std::vector<RayPacket16> closest, any;
 };
 
 struct Clip {
     std::vector<Frame> frames;
-    Pose rest;
+    Vertices rest;
 };
 
-Pose pose_of(const std::vector<Geometry>& rows) {
-    Pose pose(rows.size());
+Vertices pose_of(const std::vector<Geometry>& rows) {
+    Vertices pose(rows.size());
     for (size_t r = 0; r < rows.size(); ++r)
         if (rows[r].kind == GeometryKind::Deforming)
             pose[r].assign(rows[r].positions.begin(), rows[r].positions.end());
@@ -74,8 +74,8 @@ Pose pose_of(const std::vector<Geometry>& rows) {
 }
 
 // Vertices as the file has them, in the mesh's space: a tree of them has the same triangles.
-Pose rest_of(const Scene& scene, const Pose& like) {
-    Pose rest = like;
+Vertices rest_of(const Scene& scene, const Vertices& like) {
+    Vertices rest = like;
     for (size_t r = 0; r < like.size(); ++r) {
         const auto& mesh = scene.meshes[scene.shapes[scene.surfaces[r].shape].mesh].positions;
         if (!like[r].empty() && mesh.size() == like[r].size()) rest[r] = mesh;
@@ -83,7 +83,8 @@ Pose rest_of(const Scene& scene, const Pose& like) {
     return rest;
 }
 
-Clip play(Scene& scene, const FrameSettings& settings, double start, double end, size_t count) {
+Clip play(const Scene& scene, kinora::Pose& pose, const FrameSettings& settings, double start,
+          double end, size_t count) {
     Clip clip;
     Diagnostics diagnostics;
     raytrace::Film film;
@@ -92,10 +93,10 @@ Clip play(Scene& scene, const FrameSettings& settings, double start, double end,
         const double time = start + (end - start) * double(f) / double(count - 1);
         RecordedRays rays;
         raytrace::record_packets(&rays);
-        render_frame(scene, time, settings, film, stats, diagnostics);
+        render_frame(scene, pose, time, settings, film, stats, diagnostics);
         raytrace::record_packets(nullptr);
         Frame& frame = clip.frames.emplace_back();
-        frame.rows = scene.geometry;
+        frame.rows = pose.rows;
         frame.pose = pose_of(frame.rows);
         for (RayUse use : {RayUse::Camera, RayUse::Nested})
             for (const RayPacket16& p : rays.as_sent(use)) frame.closest.push_back(p);
@@ -184,7 +185,7 @@ class BinaryTree {
 };
 
 // Of the trees of all rows, built from a pose, over the clip.
-double refitted_areas(const Clip& clip, const Pose& built) {
+double refitted_areas(const Clip& clip, const Vertices& built) {
     double sum = 0;
     const std::vector<Geometry>& rows = clip.frames.front().rows;
     for (size_t r = 0; r < rows.size(); ++r) {
@@ -202,9 +203,9 @@ std::vector<size_t> sampled_frames(const Clip& clip) {
     return frames;
 }
 
-Pose mean_of(const Clip& clip) {
+Vertices mean_of(const Clip& clip) {
     const std::vector<size_t> frames = sampled_frames(clip);
-    Pose mean = clip.frames.front().pose;
+    Vertices mean = clip.frames.front().pose;
     for (size_t r = 0; r < mean.size(); ++r)
         for (size_t i = 0; i < mean[r].size(); ++i) {
             dvec4 sum(0.0);
@@ -214,8 +215,8 @@ Pose mean_of(const Clip& clip) {
     return mean;
 }
 
-const Pose& best_of(const Clip& clip) {
-    const Pose* best = nullptr;
+const Vertices& best_of(const Clip& clip) {
+    const Vertices* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (size_t f : sampled_frames(clip))
         if (const double sum = refitted_areas(clip, clip.frames[f].pose); sum < least)
@@ -227,7 +228,7 @@ const Pose& best_of(const Clip& clip) {
 
 class Way {
   public:
-    Way(const char* called, const Clip& clip, const Pose& built, const AccelPolicy& policy,
+    Way(const char* called, const Clip& clip, const Vertices& built, const AccelPolicy& policy,
         bool as_frames)
         : name(called),
           areas(refitted_areas(clip, built)),
@@ -281,7 +282,7 @@ class Way {
     bool as_frames_;  // rows are those of the scene, whatever they are built from
     Accel accel_;
     std::vector<Geometry> rows_;
-    Pose room_;
+    Vertices room_;
 };
 
 int measure(const char* file, FrameSettings settings, size_t count) {
@@ -302,7 +303,8 @@ int measure(const char* file, FrameSettings settings, size_t count) {
     std::unique_ptr<Scene> scene = build_scene(
         std::make_shared<SceneDescription>(std::move(*description)), options, diagnostics);
     if (!scene) return 1;
-    const Clip clip = play(*scene, settings, range.start, range.end, count);
+    kinora::Pose pose(*scene);
+    const Clip clip = play(*scene, pose, settings, range.start, range.end, count);
     size_t triangles = 0;
     for (const Geometry& row : clip.frames.front().rows)
         if (row.kind == GeometryKind::Deforming) triangles += row.triangles.size() / 3;
@@ -313,9 +315,9 @@ int measure(const char* file, FrameSettings settings, size_t count) {
     AccelPolicy once = options.accel, anew = options.accel;
     once.refit_limit = once.low_limit = std::numeric_limits<float>::infinity();
     anew.always_rebuild = true;
-    const Pose& first = clip.frames.front().pose;
+    const Vertices& first = clip.frames.front().pose;
     std::vector<std::unique_ptr<Way>> ways;
-    auto add = [&](const char* name, const Pose& built, const AccelPolicy& policy,
+    auto add = [&](const char* name, const Vertices& built, const AccelPolicy& policy,
                    bool as_frames = false) {
         ways.push_back(std::make_unique<Way>(name, clip, built, policy, as_frames));
     };

@@ -117,11 +117,12 @@ int measure(Job& job) {
         std::fprintf(stderr, "frame_floor: '%s' cannot be rendered\n", job.scene.c_str());
         return 1;
     }
+    Pose pose(*scene);
     Diagnostics diagnostics;
     raytrace::Film film;
     FrameStats stats;
     auto render = [&] {
-        return render_frame(*scene, job.time, job.settings, film, stats, diagnostics);
+        return render_frame(*scene, pose, job.time, job.settings, film, stats, diagnostics);
     };
     if (!render()) return 1;
     double own = std::numeric_limits<double>::infinity();  // without animate, skin and refit
@@ -153,9 +154,9 @@ int measure(Job& job) {
         const std::vector<RayPacket16> sorted = rays.sorted(use);
         uint64_t count = 0;
         for (const RayPacket16& p : sent) count += uint64_t(std::popcount(p.active));
-        const double sent_ms = trace_ms(scene->accel, sent, use);
+        const double sent_ms = trace_ms(pose.accel, sent, use);
         // What was sent may be the better order.
-        const double best_ms = std::min(sent_ms, trace_ms(scene->accel, sorted, use));
+        const double best_ms = std::min(sent_ms, trace_ms(pose.accel, sorted, use));
         std::printf("%s rays: %llu, packets %.0f %% full; as sent %.2f ms, best %.2f\n", name,
                     static_cast<unsigned long long>(count),
                     100.0 * double(count) / double(kPacket * sent.size()), sent_ms, best_ms);

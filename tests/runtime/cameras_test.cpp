@@ -84,7 +84,7 @@ TEST(Cameras, ViewsLookAlongTheDirectionsOfTheUpAxisFrame) {
             ASSERT_TRUE(r.scene) << r.findings();
             EXPECT_TRUE(added(r));
             r.frame(128, 72);
-            const raytrace::Camera& camera = r.scene->view;
+            const raytrace::Camera& camera = r.pose->view;
             dvec3 back =
                 glm::normalize(view.eye.x * f.right + view.eye.y * f.above + view.eye.z * f.back);
             for (int k = 0; k < 3; ++k) EXPECT_NEAR(camera.forward[k], -back[k], 1e-9) << what;
@@ -143,9 +143,9 @@ TEST(Cameras, AutoFramesTheWholeRangePlayedAndStandsStill) {
         Box box(r.frame(160, 90, time).film);
         EXPECT_GT(box.pixels, 0) << time;
         if (time > 0) {
-            EXPECT_EQ(glm::length(r.scene->view.eye - eye), 0);
+            EXPECT_EQ(glm::length(r.pose->view.eye - eye), 0);
         }
-        eye = r.scene->view.eye;
+        eye = r.pose->view.eye;
         all.left = std::min(all.left, box.left);
         all.right = std::max(all.right, box.right);
         all.bottom = std::min(all.bottom, box.bottom);
@@ -169,13 +169,13 @@ TEST(Cameras, FollowMovesWithTheCentreOnly) {
     for (double time : {0.0, 0.25, 0.5, 1.0, 2.0}) {
         Box box(r.frame(160, 90, time).film);
         EXPECT_GT(box.top - box.bottom, 1.2) << time << ": near, although the ball goes far";
-        if (time == 0) eye = r.scene->view.eye, forward = r.scene->view.forward;
+        if (time == 0) eye = r.pose->view.eye, forward = r.pose->view.forward;
         // The bounds' centre is the ball's: at 20 x in the first second, then at its end.
-        dvec3 moved = r.scene->view.eye - eye;
+        dvec3 moved = r.pose->view.eye - eye;
         EXPECT_NEAR(moved.x, 20 * std::min(time, 1.0), 1e-5) << time;
         EXPECT_NEAR(moved.y, 0, 1e-5);
         EXPECT_NEAR(moved.z, 0, 1e-5);
-        EXPECT_EQ(glm::length(r.scene->view.forward - forward), 0);
+        EXPECT_EQ(glm::length(r.pose->view.forward - forward), 0);
     }
 }
 
@@ -193,7 +193,7 @@ TEST(Cameras, ATurntableGoesRoundTheUpAxisAtThePaceAskedFor) {
             Box box(r.frame(128, 72, time).film);
             EXPECT_LT(box.top, 0.85 + 2 * box.pixel) << time;
             EXPECT_GT(box.bottom, -0.85 - 2 * box.pixel) << time;
-            eyes.push_back(r.scene->view.eye);  // about the ball's centre, which is the scene's
+            eyes.push_back(r.pose->view.eye);  // about the ball's centre, which is the scene's
         }
         auto quarter = [&](dvec3 p) { return glm::cross(axis, p) + axis * glm::dot(axis, p); };
         auto same = [](dvec3 a, dvec3 b) { return glm::length(a - b) < 1e-6; };
@@ -212,25 +212,25 @@ TEST(Cameras, LookFromAndAtSayWhereItStandsAndWhatItSees) {
     options.view.yfov = 50;
     Rendering r(bare_scene().text(), options);
     r.frame(32, 18);
-    dvec3 eye = r.scene->view.eye + r.scene->origin;
+    dvec3 eye = r.pose->view.eye + r.scene->origin;
     dvec3 forward = glm::normalize(dvec3(-3, 0, -4));
     for (int k = 0; k < 3; ++k) {
         EXPECT_NEAR(eye[k], (*options.view.from)[k], 1e-9);
-        EXPECT_NEAR(r.scene->view.forward[k], forward[k], 1e-9);
+        EXPECT_NEAR(r.pose->view.forward[k], forward[k], 1e-9);
     }
-    EXPECT_NEAR(r.scene->view.half_height, std::tan(radians(25.0)), 1e-9);
+    EXPECT_NEAR(r.pose->view.half_height, std::tan(radians(25.0)), 1e-9);
 
     options.view.at.reset();  // the scene's centre
     Rendering centre(bare_scene("Y", "<translate>0 4 8</translate>").text(), options);
     centre.frame(32, 18);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(centre.scene->view.forward[k], forward[k], 1e-6);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(centre.pose->view.forward[k], forward[k], 1e-6);
 
     options = {};
     options.view.at = dvec3(2, 0, 0);  // in the middle, and all in the picture
     Rendering at(bare_scene().text(), options);
     Box box(at.frame(128, 72).film);
-    dvec3 to = dvec3(2, 0, 0) - at.scene->view.eye - at.scene->origin;
-    EXPECT_NEAR(glm::dot(glm::normalize(to), at.scene->view.forward), 1, 1e-9);
+    dvec3 to = dvec3(2, 0, 0) - at.pose->view.eye - at.scene->origin;
+    EXPECT_NEAR(glm::dot(glm::normalize(to), at.pose->view.forward), 1, 1e-9);
     EXPECT_NEAR(std::max({-box.left, box.right, -box.bottom, box.top}), 0.85, 3 * box.pixel);
 }
 
@@ -246,14 +246,14 @@ TEST(Cameras, LookAtANodeTurnsAfterItOrGoesNear) {
     for (double time : {0.0, 0.5, 1.0}) {
         turns.frame(32, 18, time);
         dvec3 forward = glm::normalize(dvec3(20 * time, 0, -20));
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(turns.scene->view.forward[k], forward[k], 1e-5);
-        EXPECT_NEAR((turns.scene->view.eye + turns.scene->origin).z, 20, 1e-6);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(turns.pose->view.forward[k], forward[k], 1e-5);
+        EXPECT_NEAR((turns.pose->view.eye + turns.scene->origin).z, 20, 1e-6);
     }
     options = with_camera("front");
     options.view.at_node = "far";
     Rendering near(scene.text(), options);
     near.frame(64, 36);
-    EXPECT_NEAR(near.scene->view.half_height, 1 / 0.85, 1e-6);  // the ball alone
+    EXPECT_NEAR(near.pose->view.half_height, 1 / 0.85, 1e-6);  // the ball alone
     options.view.at_node = "nowhere";
     Rendering nowhere(scene.text(), options);
     EXPECT_FALSE(nowhere.scene);
@@ -273,14 +273,14 @@ TEST(Cameras, AnotherFieldOfViewKeepsTheCamerasShape) {
     EXPECT_FALSE(added(r)) << r.findings();
     double aspect = std::tan(radians(20.0)) / std::tan(radians(10.0));
     r.frame(int(std::lround(100 * aspect)), 100);
-    EXPECT_NEAR(r.scene->view.half_height, std::tan(radians(15.0)), 1e-2);
-    EXPECT_NEAR(r.scene->view.half_width, aspect * std::tan(radians(15.0)), 1e-2);
+    EXPECT_NEAR(r.pose->view.half_height, std::tan(radians(15.0)), 1e-2);
+    EXPECT_NEAR(r.pose->view.half_width, aspect * std::tan(radians(15.0)), 1e-2);
 
     options.camera = "front";  // which is parallel without
     Rendering front(scene.text(), options);
     front.frame(160, 90);
-    EXPECT_FALSE(front.scene->view.orthographic);
-    EXPECT_NEAR(front.scene->view.half_height, std::tan(radians(15.0)), 1e-9);
+    EXPECT_FALSE(front.pose->view.orthographic);
+    EXPECT_NEAR(front.pose->view.half_height, std::tan(radians(15.0)), 1e-9);
 
     options.camera.clear();
     SceneText parallel;
@@ -327,7 +327,7 @@ TEST(Cameras, OneOfTheTimesOfTheRangeIsEnough) {
     options.end_time = 0.5;
     Rendering early(scene.text(), options);
     EXPECT_TRUE(added(early));
-    EXPECT_EQ(early.scene->time, 0) << "it stands at its start again";
+    EXPECT_EQ(early.scene->start.time, 0) << "it stands at its start again";
 }
 
 TEST(Cameras, AFilesCameraWithoutAPictureGivesWay) {

@@ -97,6 +97,7 @@ TEST_P(Silhouette, FitsTheSuitesPicture) {
     Diagnostics diagnostics;
     std::unique_ptr<Scene> scene = load(files(folder, ".dae").front(), diagnostics);
     ASSERT_TRUE(scene);
+    Pose pose(*scene);
     double worst = 1;
     int frame = 0;
     for (const fs::path& picture : files(folder / "blessed", ".png")) {
@@ -108,8 +109,8 @@ TEST_P(Silhouette, FitsTheSuitesPicture) {
         settings.integrator.samples_per_pixel = 4;
         raytrace::Film film;
         FrameStats stats;
-        ASSERT_TRUE(render_frame(*scene, test.first_time + frame++ * test.time_step, settings, film,
-                                 stats, diagnostics));
+        ASSERT_TRUE(render_frame(*scene, pose, test.first_time + frame++ * test.time_step, settings,
+                                 film, stats, diagnostics));
         worst = std::min(worst, intersection_over_union(*wanted, film));
     }
     EXPECT_FALSE(diagnostics.has_errors());
@@ -129,10 +130,11 @@ TEST(UpAxis, XUpAndZUpShowTheSamePicture) {
         auto scene =
             load(files(kScenes / (i ? "cts_z_up" : "cts_x_up"), ".dae").front(), diagnostics);
         ASSERT_TRUE(scene);
+        Pose pose(*scene);
         FrameSettings settings;
         settings.width = settings.height = 128;
         FrameStats stats;
-        ASSERT_TRUE(render_frame(*scene, 0, settings, films[i], stats, diagnostics));
+        ASSERT_TRUE(render_frame(*scene, pose, 0, settings, films[i], stats, diagnostics));
     }
     size_t different = 0;
     for (size_t i = 0; i < films[0].rgba.size(); ++i)

@@ -58,7 +58,7 @@ TEST(TrueDisplacement, RunsOnceUnlessItReadsWhatChanges) {
         if (row.moving_node) scene.animate("floor-node/move.X", {0, 1}, {0, 0.1});
         Rendering r(scene.text(), dice_of(8));
         ASSERT_TRUE(r.scene) << r.findings();
-        const Shape& shape = r.scene->shapes[0];
+        const Shape& shape = r.pose->shapes[0];
         EXPECT_EQ(shape.vertex_work != nullptr, row.each_frame);
         auto still =
             row.moving_node ? raytrace::GeometryKind::Instanced : raytrace::GeometryKind::Static;
@@ -106,7 +106,7 @@ TEST(TrueDisplacement, AnimatedParametersRunItAtEachFrame) {
     scene.place("floor", "look").animate("look-fx/h", {0, 1}, {0, 1});
     Rendering r(scene.text(), dice_of(8));
     ASSERT_TRUE(r.scene) << r.findings();
-    ASSERT_TRUE(r.scene->shapes[0].vertex_work);
+    ASSERT_TRUE(r.pose->shapes[0].vertex_work);
     for (double time : {0.75, 0.0, 0.5}) {
         r.frame(time);
         for (dvec3 p : world_positions(r)) EXPECT_NEAR(p.z, time, 1e-6);
@@ -182,7 +182,7 @@ TEST(TrueDisplacement, GivesTheSameBytesOnAnyThreadsAndTargets) {
             options.target = &target;
             Rendering r(text, options);
             r.frame(0.25);
-            const Shape& shape = r.scene->shapes[0];
+            const Shape& shape = r.pose->shapes[0];
             if (first.empty()) {
                 first = shape.positions;
                 first_normals = shape.normals;
@@ -238,7 +238,7 @@ TEST(TrueDisplacement, AllocatesNothingAfterTheFirstFrames) {
     for (int frame = 0; frame < 6; ++frame) r.frame(32, 32, frame / 24.0);
     watch_allocations();
     for (int frame = 0; frame < 6; ++frame)
-        render_frame(*r.scene, frame / 24.0, r.settings, r.film, r.stats, r.diagnostics);
+        render_frame(*r.scene, *r.pose, frame / 24.0, r.settings, r.film, r.stats, r.diagnostics);
     size_t count = allocations_of_ours();
     EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours() << r.findings();
 }
@@ -425,10 +425,10 @@ TEST(TrueDisplacement, OfASkinThatItsJointsMirrorGoesOutwards) {
     scene.nodes.insert(scene.nodes.find(root) + root.size(), "<scale>-1 1 1</scale>");
     Rendering r(scene.text(), dice_of(8));
     r.frame();
-    ASSERT_TRUE(r.scene->shapes[0].mirrored);
+    ASSERT_TRUE(r.pose->shapes[0].mirrored);
     // The strip's normals are +z, whichever way its triangles are wound.
     for (dvec3 p : world_positions(r)) EXPECT_NEAR(p.z, 0.25, 1e-5);
-    for (const vec4& n : r.scene->shapes[0].normals) EXPECT_NEAR(n.z, 1, 1e-4);
+    for (const vec4& n : r.pose->shapes[0].normals) EXPECT_NEAR(n.z, 1, 1e-4);
 }
 
 TEST(TrueDisplacement, TellsTheMeshsNameToItsSurface) {

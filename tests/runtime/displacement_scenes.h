@@ -43,7 +43,7 @@ inline dvec3 position(const Mesh& mesh, size_t p) {
 // World positions of a shape whose vertices are in accel space.
 inline std::vector<dvec3> world_positions(const Rendering& r, size_t shape = 0) {
     std::vector<dvec3> result;
-    for (const vec4& p : r.scene->shapes[shape].positions)
+    for (const vec4& p : r.pose->shapes[shape].shown_positions)
         result.push_back(dvec3(p) + r.scene->origin);
     return result;
 }

@@ -58,7 +58,7 @@ void expect_no_allocation(Rendering& r) {
     for (int frame = 0; frame < 9; ++frame) r.frame(64, 36, frame / 24.0);
     watch_allocations();
     for (int frame = 0; frame < 9; ++frame)
-        render_frame(*r.scene, frame / 24.0, r.settings, r.film, r.stats, r.diagnostics);
+        render_frame(*r.scene, *r.pose, frame / 24.0, r.settings, r.film, r.stats, r.diagnostics);
     size_t count = allocations_of_ours();
     EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours() << r.findings();
     EXPECT_GT(r.stats.shading_points, 100u);
@@ -202,7 +202,7 @@ TEST(Frame, ACameraWithoutAPictureIsAnError) {
     options.camera = "eye-node";  // unnamed it would give way
     Rendering r(scene.text(), options);
     ASSERT_TRUE(r.scene);
-    EXPECT_FALSE(render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics));
+    EXPECT_FALSE(render_frame(*r.scene, *r.pose, 0, r.settings, r.film, r.stats, r.diagnostics));
     ASSERT_EQ(r.count("CAMERA_OPTICS"), 1) << r.findings();
     EXPECT_GT(r.where(*r.find("CAMERA_OPTICS")).line, 1);
 }

@@ -143,9 +143,9 @@ TEST(Framing, OfOnePointOrALineAlongTheViewStaysBeforeIt) {
 }
 
 // The ray tracer's answer to the same rays.
-double traced_share(const Scene& scene) {
+double traced_share(const Pose& pose) {
     constexpr int kGrid = 64;
-    const raytrace::Camera& camera = scene.view;
+    const raytrace::Camera& camera = pose.view;
     int met = 0;
     raytrace::TraceCounters counters;
     for (int i = 0; i < kGrid * kGrid; ++i) {
@@ -159,7 +159,7 @@ double traced_share(const Scene& scene) {
         rays.mask[0] = raytrace::kMaskAll | raytrace::kMaskCamera;
         rays.active = 1;
         raytrace::HitPacket16 hits;
-        met += int(scene.accel.intersect16(rays, hits, counters) & 1);
+        met += int(pose.accel.intersect16(rays, hits, counters) & 1);
     }
     return double(met) / (kGrid * kGrid);
 }
@@ -191,9 +191,10 @@ TEST(Coverage, IsWhatRaysMeet) {
             Rendering r(scene.text(), options);
             ASSERT_TRUE(r.scene) << r.findings();
             r.frame(96, 64);
-            double traced = traced_share(*r.scene);
+            double traced = traced_share(*r.pose);
             // Rays through edges are decided by rounding.
-            EXPECT_NEAR(covered_share(*r.scene, r.scene->view), traced, 6 / 4096.0) << way << optic;
+            EXPECT_NEAR(covered_share(*r.scene, *r.pose, r.pose->view), traced, 6 / 4096.0)
+                << way << optic;
             seen += traced > 0.01 && traced < 0.99;
         }
     EXPECT_GT(seen, 5);

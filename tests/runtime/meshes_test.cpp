@@ -350,7 +350,7 @@ TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
 // Where the first vertex stands in the world.
 dvec3 first_vertex(const Rendering& r) {
     EXPECT_TRUE(r.scene) << r.findings();
-    return r.scene ? dvec3(r.scene->shapes[0].positions[0]) + r.scene->origin : dvec3(0.0);
+    return r.scene ? dvec3(r.pose->shapes[0].shown_positions[0]) + r.scene->origin : dvec3(0.0);
 }
 
 // One triangle whose first vertex is (1, 0, 0); targets move it along y and z.
@@ -516,7 +516,7 @@ dvec3 placed(const Rendering& r, dvec3 p, size_t shape = 0) {
         ADD_FAILURE() << r.findings();
         return dvec3(0.0);
     }
-    return dvec3(r.scene->shapes[shape].world * dvec4(p, 1.0));
+    return dvec3(r.pose->shapes[shape].world * dvec4(p, 1.0));
 }
 
 const std::string kInches =

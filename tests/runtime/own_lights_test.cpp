@@ -28,7 +28,7 @@ SceneOptions with_lights(LightSet lights) {
 }
 
 bool is_added_to(Rendering& r) {
-    EXPECT_TRUE(light_black_scene(*r.scene, r.diagnostics)) << r.findings();
+    EXPECT_TRUE(light_black_scene(*r.scene, *r.pose, r.diagnostics)) << r.findings();
     const auto& added = r.scene->added;
     bool lights = std::ranges::find(added, "default key light") != added.end();
     EXPECT_EQ(r.count("LIGHTS_BLACK"), int(lights)) << r.findings();

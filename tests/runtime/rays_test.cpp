@@ -387,7 +387,7 @@ TEST(Rays, AreNotShotForAFrameThatNobodyWaitsFor) {
     std::atomic<int> stop{15};
     r.frame();
     r.settings.stop = &stop;
-    EXPECT_FALSE(render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics));
+    EXPECT_FALSE(render_frame(*r.scene, *r.pose, 0, r.settings, r.film, r.stats, r.diagnostics));
     EXPECT_EQ(r.stats.rays, 0u);
     stop = 0;
     r.frame();
@@ -522,7 +522,7 @@ TEST(Rays, AllocateNothingAfterTheFirstFrames) {
     Rendering r(ray_zoo().text());
     for (int k = 0; k < 3; ++k) r.frame(32, 32);
     watch_allocations();
-    render_frame(*r.scene, 0, r.settings, r.film, r.stats, r.diagnostics);
+    render_frame(*r.scene, *r.pose, 0, r.settings, r.film, r.stats, r.diagnostics);
     size_t count = allocations_of_ours();
     EXPECT_EQ(count, 0u) << "the first at " << first_allocation_of_ours();
 }

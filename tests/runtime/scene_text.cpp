@@ -270,6 +270,7 @@ void Rendering::load(const std::string& path, const SceneOptions& options) {
     if (!description) return;
     scene = build_scene(std::make_shared<SceneDescription>(std::move(*description)), options,
                         diagnostics);
+    if (scene) pose = std::make_unique<Pose>(*scene);
 }
 
 Rendering& Rendering::frame(double time) {
@@ -278,7 +279,8 @@ Rendering& Rendering::frame(double time) {
         film.resize(settings.width, settings.height);
         return *this;
     }
-    EXPECT_TRUE(render_frame(*scene, time, settings, film, stats, diagnostics)) << findings();
+    EXPECT_TRUE(render_frame(*scene, *pose, time, settings, film, stats, diagnostics))
+        << findings();
     return *this;
 }
 

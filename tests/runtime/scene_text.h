@@ -77,6 +77,7 @@ std::string numbers(const std::vector<dvec3>& values, int components = 3);
 struct Rendering {
     Diagnostics diagnostics;
     std::unique_ptr<Scene> scene;
+    std::unique_ptr<Pose> pose;  // of the scene
     raytrace::Film film;
     FrameStats stats;
     FrameSettings settings;

@@ -43,19 +43,19 @@ void DiceViews::find(const CloserView* closer) {
     if (closer) {
         pose_at(scene_, closer->time);
         bool valid = set_dice_view();
-        if (closer->camera) scene_.view = *closer->camera;
+        if (closer->camera) scene_.start.view = *closer->camera;
         if (valid || closer->camera) add_now();
     }
     if (moves || closer) back_to_start();
 }
 
-// Scene::view for the picture that dicing is for. False where the camera makes none.
+// The start's view for the picture that dicing is for. False where the camera makes none.
 bool DiceViews::set_dice_view() {
     const SceneOptions& options = scene_.options;
     double aspect = camera_aspect(scene_).value_or(16.0 / 9.0);
     int width = std::max(options.width, 1);
     int height = options.height > 0 ? options.height : std::max(1, int(width / aspect + 0.5));
-    return !raytrace::is_error(set_view(scene_, width, height));
+    return !raytrace::is_error(set_view(scene_, scene_.start, width, height));
 }
 
 // Where the displaced meshes are for the camera, as both stand.
@@ -64,11 +64,12 @@ void DiceViews::add_now() {
         for (uint32_t h : meshes_[m].shapes) {
             const Shape& shape = scene_.shapes[h];
             DiceView view;
-            view.camera = scene_.view;
+            view.camera = scene_.start.view;
             if (meshes_[m].deforms)
-                view.pose = shape.positions;
+                view.pose = scene_.start.shapes[h].positions;
             else
-                view.accel_from_pose = accel_from_rest(scene_, shape, meshes_[m].base.anchor);
+                view.accel_from_pose =
+                    accel_from_rest(scene_, scene_.start, shape, meshes_[m].base.anchor);
             bool seen = std::any_of(views_[m].begin(), views_[m].end(),
                                     [&](const DiceView& v) { return v.same(view); });
             if (!seen) views_[m].push_back(std::move(view));
@@ -91,8 +92,8 @@ double DiceViews::coarsest_time(double from, double to) {
     double most = kTooCoarse, result = from;
     for (int k = 1; k < kBetween; ++k) {
         double time = from + (to - from) * (double(k) / kBetween);
-        evaluate_anew(scene_, time);
-        double error = set_dice_view() ? dice_error(scene_) : 0;
+        evaluate_anew(scene_, scene_.start, time);
+        double error = set_dice_view() ? dice_error(scene_, scene_.start) : 0;
         if (!(error > most)) continue;
         most = error;
         result = time;

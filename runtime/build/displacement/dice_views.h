@@ -21,7 +21,7 @@ struct DiceView {
     bool same(const DiceView& o) const;
 };
 
-// Moves the scene through the range played and back to its start; writes Scene::view.
+// Moves the scene through the range played and back to its start.
 class DiceViews {
   public:
     // `meshes` must stay.

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "runtime/base/memory/pages.h"
 #include "runtime/build/displacement/diced_attributes.h"
 #include "runtime/build/shapes/shapes.h"
 #include "runtime/build/shapes/skins.h"
@@ -48,8 +47,6 @@ void deform_watched(const Scene& scene, const Shape& shape, const MeshUse& use,
     if (shape.morph != kNone)
         watched.morph = dice_morph(scene.morphs[shape.morph_data], vertices, {});
     watched.skin = skin_mesh_of(scene, use, vertices.size(), {}, &vertices, reported);
-    watched.morphed.resize(vertices.size());
-    watched.posed.resize(vertices.size());
 }
 
 // The shape has its diced mesh, and still the morph of the mesh as read.
@@ -60,17 +57,21 @@ void make_deforming(Scene& scene, Shape& shape, const MeshUse& use, const DicedM
         scene.morphs.push_back(dice_morph(scene.morphs[shape.morph_data], diced.position_stencils,
                                           diced.normal_stencils));
         shape.morph_data = uint32_t(scene.morphs.size() - 1);
-        shape.morphed_positions.resize(mesh.positions.size());
-        shape.morphed_normals.resize(mesh.normals.size());
     }
     skin::SkinRepairs reported;  // when the mesh was read
     shape.skin_mesh = skin_mesh_of(scene, use, mesh.positions.size(), mesh.normal_positions,
                                    &diced.position_stencils, reported);
-    if (shape.skin == kNone) {
-        shape.palette.resize(2);  // joint -1, and the node's matrix
-        shape.displaced_positions.resize(mesh.positions.size());
-        shape.displaced_normals.resize(mesh.normals.size());
-    }
+}
+
+// Vertices are moved in each frame: so each pose has what the shaders give them.
+void number_outputs(Scene& scene, const Mesh& mesh) {
+    for (const auto& group : mesh.own_groups)
+        for (VertexAttribute& attribute : group->attributes) {
+            if (!attribute.semantic.starts_with("vertex:")) continue;
+            attribute.output = uint32_t(scene.vertex_outputs.size());
+            scene.vertex_outputs.push_back(attribute.values.size());
+            std::vector<float>().swap(attribute.values);
+        }
 }
 
 }  // namespace
@@ -85,9 +86,17 @@ void put_on_shapes(Scene& scene, const DisplacedMesh& from, DicedMesh& made, con
     auto work = std::make_unique<VertexWork>(mesh, std::move(made.groups),
                                              vertex_uses(scene, from.surfaces[0], mesh));
     if (once) {
-        work->run(scene, first.node, first.conversion, mesh.anchor, mesh.positions, mesh.normals);
-        work->report(scene.description->meshes[mesh.definition], diagnostics);
+        VertexState state(*work);
+        work->run(scene, scene.start, state,
+                  {.node = first.node,
+                   .object_from_mesh = first.conversion,
+                   .anchor = mesh.anchor,
+                   .positions = mesh.positions,
+                   .normals = mesh.normals});
+        work->report(scene.description->meshes[mesh.definition], state, diagnostics);
         include_moved(mesh);
+    } else {
+        number_outputs(scene, mesh);
     }
     uint32_t index = uint32_t(scene.meshes.size());
     scene.meshes.push_back(std::move(mesh));
@@ -99,16 +108,16 @@ void put_on_shapes(Scene& scene, const DisplacedMesh& from, DicedMesh& made, con
             make_deforming(scene, shape, use, made);
         else if (instanced)
             shape.kind = raytrace::GeometryKind::Instanced;
-        bool own = shape.kind != raytrace::GeometryKind::Instanced;
-        shape.positions.clear();
-        shape.normals.clear();
-        if (!own) continue;
-        resize_pages(shape.positions, scene.meshes[index].positions.size());
-        resize_pages(shape.normals, scene.meshes[index].normals.size());
+        if (shape.kind == raytrace::GeometryKind::Instanced) {
+            shape.positions.clear();
+            shape.normals.clear();
+        }
     }
-    if (once) return;
-    work->each_frame = from.each_frame;
-    first.vertex_work = std::move(work);
+    if (!once) {
+        work->each_frame = from.each_frame;
+        first.vertex_work = std::move(work);
+    }
+    for (uint32_t h : from.shapes) size_shape(scene, scene.shapes[h], scene.start.shapes[h]);
 }
 
 }  // namespace kinora

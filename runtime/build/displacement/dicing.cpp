@@ -105,7 +105,7 @@ std::vector<std::unique_ptr<WatchedEdges>> Dicing::watch_edges(const Scene& scen
         auto watched = std::make_unique<WatchedEdges>();
         watched->shapes = mesh.shapes;
         watched->anchor = mesh.base.anchor;
-        dmat3 world(scene.nodes[first.node].world * first.conversion);
+        dmat3 world(scene.start.nodes[first.node].world * first.conversion);
         choose_edges(mesh.base, made_[m], mesh.diced, world, mesh.deforms, triangles, *watched);
         result[m] = std::move(watched);
     }

@@ -20,10 +20,13 @@ std::vector<WatchedEdges*> dice(Scene& scene, Dicing& dicing) {
     dicing.run();
     scene.dice = dicing.stats();
     scene.watched.clear();
+    scene.start.watched.clear();
     std::vector<WatchedEdges*> by_mesh;
     for (std::unique_ptr<WatchedEdges>& edges : dicing.watch_edges(scene)) {
         by_mesh.push_back(edges.get());
-        if (edges) scene.watched.push_back(std::move(edges));
+        if (!edges) continue;
+        scene.watched.push_back(std::move(edges));
+        scene.start.watched.emplace_back();
     }
     return by_mesh;
 }
@@ -56,6 +59,7 @@ void displace(Scene& scene, std::span<const SurfaceUse> uses, const CloserView* 
         const MeshUse& use = *uses[meshes[m].surfaces[0][0]].mesh;
         put_on_shapes(scene, meshes[m], dicing.made(m), use, watched[m], diagnostics);
     }
+    size_outputs(scene, scene.start);
     bake_static(scene);
     pose_now(scene);
     scene.dice.ms = watch.ms();

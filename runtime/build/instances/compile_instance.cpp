@@ -180,7 +180,6 @@ bool compile_instance(ShaderInstance& look, const SceneDescription& description,
     look.lowered = made->lowered;
     bind_kernel(look.full, made->full, look);
     if (made->opacity) bind_kernel(look.opacity.emplace(), *made->opacity, look);
-    look.current_from_space.resize(look.spaces.size(), dmat4(1.0));
     return true;
 }
 

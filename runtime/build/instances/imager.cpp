@@ -10,7 +10,7 @@ namespace kinora {
 namespace {
 
 const std::vector<ShaderUse>& own_imagers(const Scene& scene) {
-    return scene.description->cameras[scene.cameras[scene.camera].definition].picture.imagers;
+    return scene.description->cameras[scene.cameras[scene.start.camera].definition].picture.imagers;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ void add_imager(Scene& scene, std::span<const std::string> outputs) {
     instance->kind = ShaderInstanceKind::Imager;
     instance->name = "imager";
     instance->layers = layers;
-    instance->node = own_imagers(scene).empty() ? kNone : scene.cameras[scene.camera].node;
+    instance->node = own_imagers(scene).empty() ? kNone : scene.cameras[scene.start.camera].node;
     for (uint32_t l = 0; l < layers.size(); ++l)
         for (const rsl::ShaderParameter& p : layers[l].shader->parameters) {
             if (std::ranges::find(outputs, p.name) == outputs.end()) continue;

@@ -64,6 +64,8 @@ bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& 
     add_imager(scene, outputs.parameters());
     bool compiled = compile_instances(scene, outputs, compiler);
     bool lit = add_light_instances(scene, compiler, light_messages(scene));
+    for (size_t l = 0; l < scene.shader_instances.size(); ++l)
+        scene.shader_instances[l]->index = uint32_t(l);
     return vertices.all_compiled() && compiled && lit;
 }
 

@@ -47,7 +47,7 @@ bool add_light_instances(Scene& scene, InstanceCompiler& compiler,
         if (light.look != kNone) continue;
         auto instance = light_instance(scene, light);
         ok &= compiler.compile(*instance, wanted);
-        light.look = uint32_t(scene.shader_instances.size());
+        light.look = instance->index = uint32_t(scene.shader_instances.size());
         scene.shader_instances.push_back(std::move(instance));
     }
     return ok;

@@ -288,17 +288,19 @@ ShaderSwapper::Outcome ShaderSwapper::swap(const SceneDescription& edited, Diagn
     return Outcome::Swapped;
 }
 
-void apply_swap(Scene& scene, ShaderSwap swap) {
+void apply_swap(Scene& scene, Pose& pose, ShaderSwap swap) {
     SceneDescription& description = *scene.description;
     for (const ShaderSwap::Numbers& numbers : swap.numbers) {
         const size_t end = numbers.offset + numbers.values.size();
         if (description.values.size() < end) {
             description.values.resize(end);
             description.animated.resize(end, false);
-            scene.values.resize(end);
+            scene.start.values.resize(end);
+            pose.values.resize(end);
         }
         std::ranges::copy(numbers.values, description.values.begin() + numbers.offset);
-        std::ranges::copy(numbers.values, scene.values.begin() + numbers.offset);
+        std::ranges::copy(numbers.values, scene.start.values.begin() + numbers.offset);
+        std::ranges::copy(numbers.values, pose.values.begin() + numbers.offset);
     }
     for (ShaderSwap::Shaders& shaders : swap.materials)
         for (size_t l = 0; l < shaders.surfaces.size(); ++l)
@@ -306,7 +308,7 @@ void apply_swap(Scene& scene, ShaderSwap swap) {
     if (swap.instances.empty()) return;
     for (auto& instance : swap.instances)
         scene.shader_instances[instance->index] = std::move(instance);
-    scene.shading = std::make_unique<Shading>(scene);
+    pose.shading.reset();
 }
 
 }  // namespace kinora

@@ -29,7 +29,7 @@ struct ShaderSwap {
 };
 
 // Between two frames, and in the order in which the swaps were made.
-void apply_swap(Scene& scene, ShaderSwap swap);
+void apply_swap(Scene& scene, Pose& pose, ShaderSwap swap);
 
 // Makes swaps. After its constructor it does not look at the scene, which may be rendered
 // meanwhile.

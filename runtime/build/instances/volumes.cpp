@@ -57,7 +57,7 @@ uint32_t VolumeInstances::add_volume(const std::vector<ShaderUse>& layers, const
 
 void add_atmosphere(Scene& scene) {
     const SceneDescription& description = *scene.description;
-    const CameraSource& camera = scene.cameras[scene.camera];
+    const CameraSource& camera = scene.cameras[scene.start.camera];
     const auto& own = description.cameras[camera.definition].picture.atmosphere;
     const auto& layers = own.empty() ? description.picture.atmosphere : own;
     if (layers.empty()) return;

@@ -40,13 +40,14 @@ void add_box(const Mesh& mesh, const dmat4& world_from_mesh, Bounds& bounds) {
 
 Bounds bounds_now(const Scene& scene) {
     Bounds bounds;
-    for (const Shape& shape : scene.shapes) {
+    for (size_t s = 0; s < scene.shapes.size(); ++s) {
+        const Shape& shape = scene.shapes[s];
         if (shape.kind != raytrace::GeometryKind::Deforming) {
-            add_box(scene.meshes[shape.mesh], scene.nodes[shape.node].world * shape.conversion,
-                    bounds);
+            add_box(scene.meshes[shape.mesh],
+                    scene.start.nodes[shape.node].world * shape.conversion, bounds);
             continue;
         }
-        for (const vec4& p : shape.positions) bounds.add(dvec3(p) + scene.origin);
+        for (const vec4& p : scene.start.shapes[s].positions) bounds.add(dvec3(p) + scene.origin);
     }
     return bounds;
 }
@@ -77,9 +78,9 @@ dvec3 origin_within(const Scene& scene, const Bounds& bounds) {
 // The centre of the first mesh, or its last joint.
 dvec3 first_origin(const Scene& scene) {
     const Shape& first = scene.shapes.front();
-    dvec3 origin(scene.nodes[first.node].world * dvec4(scene.meshes[first.mesh].anchor, 1.0));
+    dvec3 origin(scene.start.nodes[first.node].world * dvec4(scene.meshes[first.mesh].anchor, 1.0));
     for (uint32_t joint : first.joint_nodes)
-        if (joint != kNone && first.in_world) origin = scene.nodes[joint].world[3];
+        if (joint != kNone && first.in_world) origin = scene.start.nodes[joint].world[3];
     return origin;
 }
 
@@ -95,7 +96,7 @@ void set_bounds(Scene& scene) {
     // A first guess makes the scene's own size the scale of all floats: deformed about the first
     // mesh, then about the centre found so.
     if (!scene.shapes.empty()) scene.origin = first_origin(scene);
-    scene.geometry.resize(scene.surfaces.size());
+    scene.start.rows.resize(scene.surfaces.size());
     pose_now(scene);
     Bounds bounds = bounds_now(scene);
     if (bounds.empty()) {
@@ -112,10 +113,11 @@ void set_bounds(Scene& scene) {
 
 bool anything_to_draw(const Scene& scene) {
     return std::ranges::any_of(scene.shapes, [&](const Shape& shape) {
+        const ShapePose& stands = scene.start.shapes[size_t(&shape - scene.shapes.data())];
         const Mesh& mesh = scene.meshes[shape.mesh];
         if (!has_triangles(mesh)) return false;
         if (shape.kind == raytrace::GeometryKind::Deforming) return true;
-        return has_area(mesh) && (scene.nodes[shape.node].can_move || !is_singular(shape));
+        return has_area(mesh) && (scene.nodes[shape.node].can_move || !is_singular(stands));
     });
 }
 

@@ -74,9 +74,6 @@ void add_morph(Scene& scene, uint32_t morph, Shape& shape, Diagnostics& diagnost
     const Mesh& mesh = scene.meshes[shape.mesh];
     scene.morphs.resize(description.morphs.size());
     shape.morph_data = morph;
-    shape.morphed_positions.resize(mesh.positions.size());
-    shape.morphed_normals.resize(mesh.normals.size());
-    shape.morph_weights.resize(chain_targets(description, morph));
     if (!scene.morphs[morph].base_positions.empty()) return;
     const MorphDefinition& definition = description.morphs[morph];
     uint32_t mismatched = 0;

@@ -33,21 +33,22 @@ uint32_t add_node(Scene& scene, NodeDefinition definition, uint32_t parent) {
     for (anim::Channel& channel : description.animation.channels)
         if (channel.owner >= index) ++channel.owner;
     ++description.animation.owner_count;
-    scene.changed.resize(anim::changed_words(description.animation.owner_count), 0);
+    scene.start.changed.resize(anim::changed_words(description.animation.owner_count), 0);
     Node node;
     node.definition = index;
     node.parent = parent;
     node.chosen = !description.only_chosen;
-    node.world = node_matrix(definition, scene.values);
+    NodePose stands{.world = node_matrix(definition, scene.start.values)};
     if (parent != kNone) {
         const Node& above = scene.nodes[parent];
         node.can_move = above.can_move;
         node.hidden = above.hidden;
         node.chosen = above.chosen;
-        node.world = above.world * node.world;
+        stands.world = scene.start.nodes[parent].world * stands.world;
     }
     description.nodes.push_back(std::move(definition));
     scene.nodes.push_back(node);
+    scene.start.nodes.push_back(stands);
     return uint32_t(scene.nodes.size() - 1);
 }
 
@@ -73,6 +74,7 @@ void NodeTree::unroll(uint32_t definition, uint32_t parent, const dmat4& convers
     node.chosen = from.chosen || (above ? above->chosen : !description.only_chosen);
     uint32_t index = uint32_t(scene_.nodes.size());
     scene_.nodes.push_back(node);
+    scene_.start.nodes.emplace_back();
     first_occurrence_.try_emplace(definition, index);
     for (const ChildUse& child : from.children) unroll(child.node, index, child.conversion);
 }
@@ -81,7 +83,7 @@ uint32_t NodeTree::add(NodeDefinition definition, uint32_t parent) {
     uint32_t node = add_node(scene_, std::move(definition), parent);
     definition_moves_.push_back(false);
     first_occurrence_.try_emplace(scene_.nodes[node].definition, node);
-    evaluate_anew(scene_, scene_.options.start_time);
+    evaluate_anew(scene_, scene_.start, scene_.options.start_time);
     return node;
 }
 

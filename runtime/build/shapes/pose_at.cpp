@@ -1,4 +1,4 @@
-// runtime/build/shapes/pose_at.cpp: the shapes of a scene under construction at a time.
+// runtime/build/shapes/pose_at.cpp: the pose of a scene under construction at a time.
 #include "runtime/build/shapes/pose_at.h"
 
 #include "runtime/scene/values.h"
@@ -7,13 +7,13 @@
 namespace kinora {
 
 void pose_at(Scene& scene, double time) {
-    evaluate_anew(scene, time);
+    evaluate_anew(scene, scene.start, time);
     pose_now(scene);
 }
 
 void pose_now(Scene& scene) {
-    pose(scene);
-    deform(scene);
+    pose_joints(scene, scene.start);
+    deform(scene, scene.start);
 }
 
 }  // namespace kinora

@@ -1,4 +1,4 @@
-// runtime/build/shapes/pose_at.h: the shapes of a scene under construction at a time.
+// runtime/build/shapes/pose_at.h: Scene::start, the pose of a scene under construction, at a time.
 #pragma once
 
 #include "runtime/scene/scene.h"

@@ -23,10 +23,9 @@ constexpr size_t kMostSurfaces = 1'000'000;
 // Meshes whose definitions are read after they are built: by displacement, which dices them anew,
 // and by morphs.
 std::vector<bool> read_again(const SceneDescription& description) {
-    bool displaced = std::any_of(description.materials.begin(), description.materials.end(),
-                                 [](const MaterialDefinition& m) {
-                                     return displaces(m) || !m.transformations.empty();
-                                 });
+    bool displaced = std::any_of(
+        description.materials.begin(), description.materials.end(),
+        [](const MaterialDefinition& m) { return displaces(m) || !m.transformations.empty(); });
     std::vector<bool> result(description.meshes.size(), displaced);
     for (const MorphDefinition& morph : description.morphs)
         for (uint32_t target : morph.targets)
@@ -91,11 +90,10 @@ void add_shape(Scene& scene, const MeshUse& use, uint32_t node, size_t uses,
     shape.kind = kind_of(use, scene.nodes[node], mesh, uses);
     if (use.morph != kNone) add_morph(scene, use.morph, shape, diagnostics);
     if (shape.kind == raytrace::GeometryKind::Deforming) skins.bind(use, shape);
-    shape.world = scene.nodes[node].world * shape.conversion;
-    shape.mirrored = glm::determinant(dmat3(shape.world)) < 0;
-    if (shape.kind == raytrace::GeometryKind::Instanced) return;
-    shape.positions.resize(mesh.positions.size());
-    shape.normals.resize(mesh.normals.size());
+    ShapePose& stands = scene.start.shapes.emplace_back();
+    size_shape(scene, shape, stands);
+    stands.world = scene.start.nodes[node].world * shape.conversion;
+    stands.mirrored = glm::determinant(dmat3(stands.world)) < 0;
 }
 
 // Of the last shape: one a group of its mesh.

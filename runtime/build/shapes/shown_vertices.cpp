@@ -29,10 +29,10 @@ std::span<const dvec3> ShownVertices::of(uint32_t index) {
     const Shape& shape = scene_.shapes[index];
     const Mesh& mesh = scene_.meshes[shape.mesh];
     bool deforms = shape.kind == raytrace::GeometryKind::Deforming;
-    dmat4 world = scene_.nodes[shape.node].world * shape.conversion;
+    dmat4 world = scene_.start.nodes[shape.node].world * shape.conversion;
     world_.clear();
     for (uint32_t i : used_[shape.mesh]) {
-        dvec3 p = deforms ? dvec3(shape.positions[i]) + scene_.origin
+        dvec3 p = deforms ? dvec3(scene_.start.shapes[index].positions[i]) + scene_.origin
                           : dvec3(world * dvec4(dvec3(mesh.positions[i]) + mesh.anchor, 1.0));
         if (std::isfinite(p.x + p.y + p.z)) world_.push_back(p);
     }

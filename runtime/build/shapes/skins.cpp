@@ -13,11 +13,11 @@ NodePoses node_poses(Scene& scene) {
     NodePoses poses;
     if (scene.description->skins.empty()) return poses;
     auto keep = [&](std::vector<dmat4>& worlds) {
-        for (const Node& node : scene.nodes) worlds.push_back(node.world);
+        for (const NodePose& node : scene.start.nodes) worlds.push_back(node.world);
     };
-    evaluate_anew(scene, std::nullopt);
+    evaluate_anew(scene, scene.start, std::nullopt);
     keep(poses.rest);
-    evaluate_anew(scene, anim::time_range(scene.description->animation).begin);
+    evaluate_anew(scene, scene.start, anim::time_range(scene.description->animation).begin);
     keep(poses.start);
     return poses;
 }
@@ -42,10 +42,6 @@ void SkinBinder::bind(const MeshUse& use, Shape& shape) const {
     const Mesh& mesh = scene_.meshes[shape.mesh];
     shape.skin_mesh =
         skin_mesh_of(scene_, use, mesh.positions.size(), mesh.normal_positions, nullptr, repairs);
-    size_t joints = use.skin == kNone ? 1 : shape.joint_nodes.size();
-    shape.palette.resize(joints + 1);
-    if (use.skin != kNone && scene_.options.skin_method == SkinMethod::Dual)
-        shape.dual_palette.resize(joints + 1);
     if (repairs.weight_sum && !weights_told)
         diagnostics_.report(Code::SKIN_WEIGHT_SUM, where, id, repairs.weight_sum,
                             repairs.worst_sum);
@@ -66,7 +62,6 @@ void SkinBinder::bind_joints(const MeshUse& use, Shape& shape) const {
         uint32_t joint = j < use.joint_nodes.size() ? use.joint_nodes[j] : kNone;
         shape.joint_nodes.push_back(tree_.nearest_occurrence(joint, shape.node));
     }
-    shape.joint_world.resize(joints, dmat4(1.0));
     convert_binds(shape);
     choose_space(skin, shape);
 }

@@ -20,18 +20,19 @@ void Denoiser::forget() {
     memory_->history.forget();
 }
 
-bool Denoiser::filter(const Scene& scene, const FirstHits& hits, raytrace::Film& film) {
+bool Denoiser::filter(const Scene& scene, const Pose& pose, const FirstHits& hits,
+                      raytrace::Film& film) {
     Memory& m = *memory_;
-    if (!fill_planes(scene, hits, film, m.planes)) {
+    if (!fill_planes(scene, pose, hits, film, m.planes)) {
         m.history.forget();
         return false;
     }
     fill_albedo(scene, hits, m.planes);
-    m.history.blend(scene, hits, m.planes);
+    m.history.blend(pose, hits, m.planes);
     m.filter.start(m.planes);
     // The next picture finds what one pass has left: less of a single bright sample stays for long.
     m.filter.pass(m.planes);
-    m.history.keep(scene, m.planes);
+    m.history.keep(pose, m.planes);
     for (int k = 1; k < AtrousFilter::kPasses; ++k) m.filter.pass(m.planes);
     take_colors(m.planes, film);
     return true;

@@ -21,7 +21,7 @@ class Denoiser {
     void forget();
     // Filters the film that was just rendered of the scene as it stands, with its first hits.
     // False: nothing of it is noisy.
-    bool filter(const Scene& scene, const FirstHits& hits, raytrace::Film& film);
+    bool filter(const Scene& scene, const Pose& pose, const FirstHits& hits, raytrace::Film& film);
 
   private:
     struct Memory;

@@ -46,9 +46,9 @@ void Moments::resize(size_t size) {
 }
 
 // Where the point of the surface was at the picture before, accel space.
-vec3 History::place_before(const Scene& scene, const FirstHits& hits, size_t hit) const {
+vec3 History::place_before(const Pose& pose, const FirstHits& hits, size_t hit) const {
     const uint32_t row = hits.surface[hit];
-    const raytrace::Geometry& geometry = scene.geometry[row];
+    const raytrace::Geometry& geometry = pose.rows[row];
     if (geometry.kind == raytrace::GeometryKind::Static) return hits.P[hit];
     const bool instanced = geometry.kind == raytrace::GeometryKind::Instanced;
     std::span<const vec4> vertices = geometry.positions;
@@ -69,8 +69,7 @@ void History::find(vec3 P, Places& places, size_t i) const {
     places.depth[i] = float(view_.parallel ? z : inverse);
 }
 
-void History::look_back(const Scene& scene, const FirstHits& hits, size_t at,
-                        const Planes& planes) {
+void History::look_back(const Pose& pose, const FirstHits& hits, size_t at, const Planes& planes) {
     const size_t y = at / size_t(planes.stride) - Planes::kBorder,
                  x = at % size_t(planes.stride) - Planes::kBorder;
     const size_t hit = y * size_t(planes.width) + x;
@@ -78,7 +77,7 @@ void History::look_back(const Scene& scene, const FirstHits& hits, size_t at,
     for (size_t i = 0; i < kFilterRun; ++i) {
         places.x[i] = places.y[i] = -1;
         places.depth[i] = 0;
-        if (planes.variance[at + i] > 0) find(place_before(scene, hits, hit + i), places, i);
+        if (planes.variance[at + i] > 0) find(place_before(pose, hits, hit + i), places, i);
     }
     const ptrdiff_t border = Planes::kBorder;
     history_kernels().look_back(
@@ -116,18 +115,18 @@ void History::mix(Planes& planes) {
     });
 }
 
-void History::blend(const Scene& scene, const FirstHits& hits, Planes& planes) {
+void History::blend(const Pose& pose, const FirstHits& hits, Planes& planes) {
     const size_t size = planes.surface.size();
     for (Moments* moments : {&moments_, &seen_moments_}) moments->resize(size);
     for (auto& plane : seen_) plane.resize(size);
-    const bool known = known_ && accel_from_local_.size() == scene.geometry.size();
+    const bool known = known_ && accel_from_local_.size() == pose.rows.size();
     for (int k = 0; k < 4; ++k) {
         fresh_[k].resize(size);
         fresh_[k].swap(planes.c[k]);  // stretches without noise are not asked for again
     }
     each_stretch(planes, [&](size_t at) {
-        known && is_noisy(planes, at) ? look_back(scene, hits, at, planes)
-                                      : forget_stretch(seen_moments_, at);
+        known&& is_noisy(planes, at) ? look_back(pose, hits, at, planes)
+                                     : forget_stretch(seen_moments_, at);
     });
     mix(planes);
 }
@@ -148,35 +147,35 @@ void History::keep_pixels(const Planes& p) {
     });
 }
 
-void History::keep(const Scene& scene, const Planes& planes) {
+void History::keep(const Pose& pose, const Planes& planes) {
     width_ = planes.width;
     height_ = planes.height;
     stride_ = planes.stride;
     keep_pixels(planes);
-    const raytrace::Camera& camera = scene.view;
+    const raytrace::Camera& camera = pose.view;
     view_ = {camera.eye,
              camera.forward,
              camera.raster_dx / glm::dot(camera.raster_dx, camera.raster_dx),
              camera.raster_dy / glm::dot(camera.raster_dy, camera.raster_dy),
              0.5 * dvec2(camera.width, camera.height) - 0.5,
              camera.orthographic};
-    keep_places(scene);
+    keep_places(pose);
     known_ = true;
 }
 
-void History::keep_places(const Scene& scene) {
-    accel_from_local_.resize(scene.geometry.size());
-    vertices_of_.assign(scene.geometry.size(), nullptr);
+void History::keep_places(const Pose& pose) {
+    accel_from_local_.resize(pose.rows.size());
+    vertices_of_.assign(pose.rows.size(), nullptr);
     std::map<const vec4*, size_t> kept;  // by where they lie now: rows of one mesh share them
     size_t count = 0;
-    for (const raytrace::Geometry& geometry : scene.geometry)
+    for (const raytrace::Geometry& geometry : pose.rows)
         if (geometry.kind == raytrace::GeometryKind::Deforming &&
             kept.emplace(geometry.positions.data(), count).second)
             ++count;
     vertices_.resize(count);
     std::vector<bool> copied(count);
-    for (size_t row = 0; row < scene.geometry.size(); ++row) {
-        const raytrace::Geometry& geometry = scene.geometry[row];
+    for (size_t row = 0; row < pose.rows.size(); ++row) {
+        const raytrace::Geometry& geometry = pose.rows[row];
         accel_from_local_[row] = geometry.accel_from_local;
         if (geometry.kind != raytrace::GeometryKind::Deforming) continue;
         const size_t at = kept[geometry.positions.data()];

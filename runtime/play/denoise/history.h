@@ -22,9 +22,9 @@ class History {
 
     // Mixes into the colors of pixels with a variance what was seen there before, and sets that
     // variance: of the brightness, as the mixture has it (history_kernels.h).
-    void blend(const Scene& scene, const FirstHits& hits, Planes& planes);
+    void blend(const Pose& pose, const FirstHits& hits, Planes& planes);
     // These colors are what the next picture finds.
-    void keep(const Scene& scene, const Planes& planes);
+    void keep(const Pose& pose, const Planes& planes);
 
   private:
     // Of the picture before, the camera: how it sees a place, in pixels.
@@ -37,12 +37,12 @@ class History {
     struct Places {
         alignas(64) float x[kFilterRun], y[kFilterRun], depth[kFilterRun];
     };
-    vec3 place_before(const Scene& scene, const FirstHits& hits, size_t hit) const;
+    vec3 place_before(const Pose& pose, const FirstHits& hits, size_t hit) const;
     void find(vec3 P, Places& places, size_t i) const;
-    void look_back(const Scene& scene, const FirstHits& hits, size_t at, const Planes& planes);
+    void look_back(const Pose& pose, const FirstHits& hits, size_t at, const Planes& planes);
     void mix(Planes& planes);
     void keep_pixels(const Planes& planes);
-    void keep_places(const Scene& scene);
+    void keep_places(const Pose& pose);
 
     bool known_ = false;
     // The picture before, with its border.

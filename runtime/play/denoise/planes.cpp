@@ -20,7 +20,7 @@ size_t whole_runs(int pixels) {
 // Normals of a row of Scene::surfaces between the corners of its triangles.
 class SmoothNormals {
   public:
-    explicit SmoothNormals(const Scene& scene) : scene_(scene) {}
+    SmoothNormals(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
 
     // Ng where the mesh has no normals.
     vec3 at(uint32_t row, uint32_t primitive, float u, float v, vec3 Ng) {
@@ -42,13 +42,15 @@ class SmoothNormals {
         const Surface& surface = scene_.surfaces[row];
         const Shape& shape = scene_.shapes[surface.shape];
         group_ = &scene_.meshes[shape.mesh].groups[surface.group];
-        normals_ = shape.rest_normals;
+        const ShapePose& stands = pose_.shapes[surface.shape];
+        normals_ = stands.shown_normals;
         turn_ = shape.kind == raytrace::GeometryKind::Instanced
-                    ? normal_matrix(shape.world, shape.mirrored)
+                    ? normal_matrix(stands.world, stands.mirrored)
                     : mat3(1.0f);
     }
 
     const Scene& scene_;
+    const Pose& pose_;
     uint32_t row_ = kNone;
     const MeshGroup* group_ = nullptr;
     std::span<const vec4> normals_;
@@ -104,15 +106,15 @@ void Planes::resize(int w, int h) {
     surface.assign(size, kOutside);
 }
 
-bool fill_planes(const Scene& scene, const FirstHits& hits, const raytrace::Film& film,
-                 Planes& planes) {
+bool fill_planes(const Scene& scene, const Pose& pose, const FirstHits& hits,
+                 const raytrace::Film& film, Planes& planes) {
     if (!hits.any_noise()) return false;
     planes.resize(film.width, film.height);
-    const Depths depths(scene.view);
-    const vec3 eye(scene.view.eye), forward(scene.view.forward);
-    const bool parallel = scene.view.orthographic;
+    const Depths depths(pose.view);
+    const vec3 eye(pose.view.eye), forward(pose.view.forward);
+    const bool parallel = pose.view.orthographic;
     parallel_for(0, size_t(film.height), kRowsOfTask, [&](size_t begin, size_t end) {
-        SmoothNormals normals(scene);
+        SmoothNormals normals(scene, pose);
         for (size_t y = begin; y < end; ++y)
             for (int x = 0; x < film.width; ++x) {
                 const size_t from = y * size_t(film.width) + size_t(x);

@@ -49,8 +49,8 @@ void each_stretch(const Planes& planes, See&& see) {
 
 // The film's colors, and what the first hits are of the scene as it stands. Pixels whose shading
 // draws nothing at random have no variance, others 1. False: there are none of these.
-bool fill_planes(const Scene& scene, const FirstHits& hits, const raytrace::Film& film,
-                 Planes& planes);
+bool fill_planes(const Scene& scene, const Pose& pose, const FirstHits& hits,
+                 const raytrace::Film& film, Planes& planes);
 
 // The colors of pixels with a variance, back to the film.
 void take_colors(const Planes& planes, raytrace::Film& film);

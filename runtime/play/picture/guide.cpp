@@ -30,7 +30,7 @@ struct Centers {
     }
 };
 
-void trace_packet(const Scene& scene, const Centers& centers, std::span<const uint32_t> pixels,
+void trace_packet(const Pose& pose, const Centers& centers, std::span<const uint32_t> pixels,
                   PictureGuide& guide, raytrace::TraceCounters& counters) {
     const size_t count = pixels.size();
     raytrace::RayPacket16 rays{};
@@ -47,7 +47,7 @@ void trace_packet(const Scene& scene, const Centers& centers, std::span<const ui
         rays.mask[k] = raytrace::kMaskAll | raytrace::kMaskCamera;
         rays.time[k] = 0;
     }
-    uint32_t hit = scene.accel.intersect16(rays, hits, counters);
+    uint32_t hit = pose.accel.intersect16(rays, hits, counters);
     vec3 forward(centers.camera.forward);
     for (size_t k = 0; k < count; ++k) {
         const size_t pixel = pixels[k];
@@ -189,8 +189,8 @@ std::vector<uint8_t> beside_edges(const PictureGuide& guide) {
 }
 
 // The same window in other pixels.
-raytrace::Camera camera_of(const Scene& scene, int width, int height) {
-    raytrace::Camera camera = scene.view;
+raytrace::Camera camera_of(const Pose& pose, int width, int height) {
+    raytrace::Camera camera = pose.view;
     camera.raster_dx *= double(camera.width) / width;
     camera.raster_dy *= double(camera.height) / height;
     camera.width = width;
@@ -286,10 +286,10 @@ class Enlargement {
 
 }  // namespace
 
-void make_guide(const Scene& scene, int width, int height, PictureGuide& guide) {
+void make_guide(const Pose& pose, int width, int height, PictureGuide& guide) {
     size_t pixels = size_t(width) * size_t(height);
     guide.resize(width, height);
-    const raytrace::Camera camera = camera_of(scene, width, height);
+    const raytrace::Camera camera = camera_of(pose, width, height);
     Centers centers{camera, size_t(width)};
     constexpr size_t kPackets = 64;  // a task
     size_t packets = (pixels + kPacket - 1) / kPacket;
@@ -299,15 +299,15 @@ void make_guide(const Scene& scene, int width, int height, PictureGuide& guide) 
             std::array<uint32_t, kPacket> some;
             std::iota(some.begin(), some.end(), uint32_t(packet * kPacket));
             const size_t count = std::min<size_t>(kPacket, pixels - packet * kPacket);
-            trace_packet(scene, centers, std::span(some).first(count), guide, counters);
+            trace_packet(pose, centers, std::span(some).first(count), guide, counters);
         }
     });
 }
 
-void refine_guide(const Scene& scene, const PictureGuide& small, int width, int height,
+void refine_guide(const Pose& pose, const PictureGuide& small, int width, int height,
                   PictureGuide& guide) {
     guide.resize(width, height);
-    const raytrace::Camera camera = camera_of(scene, width, height);
+    const raytrace::Camera camera = camera_of(pose, width, height);
     const Centers centers{camera, size_t(width)};
     const std::vector<uint8_t> edges = beside_edges(small);
     const std::vector<int> columns = cells(small.width, width), rows = cells(small.height, height);
@@ -331,14 +331,14 @@ void refine_guide(const Scene& scene, const PictureGuide& small, int width, int 
             if (!edges[from]) return;
             some[count++] = uint32_t(pixel);
             if (count < kPacket) return;
-            trace_packet(scene, centers, some, guide, counters);
+            trace_packet(pose, centers, some, guide, counters);
             count = 0;
         };
         for (size_t square = begin * across; square < end * across; ++square)
             beside(square / across, size_t(height), [&](size_t y) {
                 beside(square % across, size_t(width), [&](size_t x) { refine(x, y); });
             });
-        if (count) trace_packet(scene, centers, std::span(some).first(count), guide, counters);
+        if (count) trace_packet(pose, centers, std::span(some).first(count), guide, counters);
     });
 }
 

@@ -12,14 +12,14 @@
 namespace kinora {
 
 // Of the scene as it stands, for a picture of that size with the scene's view.
-void make_guide(const Scene& scene, int width, int height, PictureGuide& guide);
+void make_guide(const Pose& pose, int width, int height, PictureGuide& guide);
 
 // The same of the first hits of a film that was just rendered: a guide of its size.
 void take_guide(const FirstHits& hits, const raytrace::Camera& camera, PictureGuide& guide);
 
 // As make_guide(), with rays only beside edges of a smaller guide: elsewhere that one's pixels are
 // taken, and enlarge() does the same with both.
-void refine_guide(const Scene& scene, const PictureGuide& small, int width, int height,
+void refine_guide(const Pose& pose, const PictureGuide& small, int width, int height,
                   PictureGuide& guide);
 
 // `small` to a picture of that size, by a guide of any. A pixel mixes the four small ones around

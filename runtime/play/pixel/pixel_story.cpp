@@ -13,29 +13,30 @@ constexpr size_t kMostPoints = 8;
 
 }  // namespace
 
-PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
+PixelStory pixel_story(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
                        const SourceFiles& files, int x, int y, int sample) {
     PixelStory story;
     story.x = x, story.y = y, story.sample = sample;
     Diagnostics ignored;  // the frames tell them
     FrameStats stats;
     if (x < 0 || y < 0 || x >= settings.width || y >= settings.height) return story;
-    if (!pose_frame(scene, time, settings, stats, ignored)) return story;
+    if (!pose_frame(scene, pose, time, settings, stats, ignored)) return story;
     raytrace::Film film;
-    scene.shading->stop_by(settings.stop);
-    scene.shading->show(settings.insight);
-    scene.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers, true);
+    if (!pose.shading) pose.shading = std::make_shared<Shading>(scene, pose);
+    pose.shading->stop_by(settings.stop);
+    pose.shading->show(settings.insight);
+    pose.shading->begin_frame(settings.integrator.seed, settings.integrator.max_layers, true);
     RayRecorder shot;
     {
         PointRecorder recorder([&](RecordedPoint& point) {
             if (story.points.size() < kMostPoints)
                 story.points.push_back(explain_point(point, files));
         });
-        story.color = raytrace::integrate_sample(scene.accel, scene.view, *scene.shading, film,
-                                                 settings.integrator, scene.scratch, x, y, sample);
+        story.color = raytrace::integrate_sample(pose.accel, pose.view, *pose.shading, film,
+                                                 settings.integrator, pose.scratch, x, y, sample);
     }
-    shot.tell(scene, story);
-    scene.shading->drop_frame(ignored);
+    shot.tell(scene, pose, story);
+    pose.shading->drop_frame(ignored);
     story.color = vec4(vec3(story.color) * float(settings.gain), story.color.w);
     return story;
 }

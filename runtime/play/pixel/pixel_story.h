@@ -14,6 +14,7 @@
 namespace kinora {
 
 struct FrameSettings;
+struct Pose;
 struct Scene;
 class SourceFiles;
 
@@ -81,10 +82,10 @@ struct PixelStory {
 };
 
 // Runs sample `sample` of the pixel at that time again, as render_frame() with these settings. The
-// scene stands at the time afterwards, prints nothing and bakes nothing. On the thread that
+// pose stands at the time afterwards, prints nothing and bakes nothing. On the thread that
 // renders; no other frame may be under way. `files`: that the shaders' locations speak of. Without
 // points where nothing is there or the camera makes no picture.
-PixelStory pixel_story(Scene& scene, double time, const FrameSettings& settings,
+PixelStory pixel_story(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
                        const SourceFiles& files, int x, int y, int sample);
 
 std::string to_json(const PixelStory& story);

@@ -62,11 +62,11 @@ void add_globals(const AllColumns& columns, Values& values) {
             }
 }
 
-void add_frame(const Scene& scene, Values& values) {
-    values[rsl::text(rsl::global_key(rsl::Global::time))] = double(float(scene.time));
-    values[rsl::text(rsl::global_key(rsl::Global::dtime))] = double(float(scene.shutter));
-    values[rsl::text(rsl::plain_key(rsl::KeyKind::CameraNear))] = double(float(scene.view.znear));
-    values[rsl::text(rsl::plain_key(rsl::KeyKind::CameraFar))] = double(float(scene.view.zfar));
+void add_frame(const Pose& pose, Values& values) {
+    values[rsl::text(rsl::global_key(rsl::Global::time))] = double(float(pose.time));
+    values[rsl::text(rsl::global_key(rsl::Global::dtime))] = double(float(pose.shutter));
+    values[rsl::text(rsl::plain_key(rsl::KeyKind::CameraNear))] = double(float(pose.view.znear));
+    values[rsl::text(rsl::plain_key(rsl::KeyKind::CameraFar))] = double(float(pose.view.zfar));
 }
 
 void add_spaces(const GridHost& host, Values& values) {
@@ -105,22 +105,22 @@ void add_varying(const ShaderInstance& look, const AllColumns& columns, Values& 
     }
 }
 
-double frame_number(const Scene& scene, const ShaderInstance& look, const KernelKey& key) {
+double frame_number(const Grid& grid, const ShaderInstance& look, const KernelKey& key) {
     FrameInput input = parameter_input(look, key);
     switch (input.source) {
         case FrameInput::Source::Value:
-            return double(float(scene.values[input.index]));
+            return double(float(grid.pose.values[input.index]));
         case FrameInput::Source::Spatial: {
-            dmat4 m = current_from_space(scene, "shader", look.space_owner());
-            return double(float(
-                parameter_in_current(input.type, m, &scene.values[input.index])[input.component]));
+            dmat4 m = current_from_space(grid.scene, grid.pose, "shader", look.space_owner());
+            return double(float(parameter_in_current(
+                input.type, m, &grid.pose.values[input.index])[input.component]));
         }
         default:
             return double(input.fixed);
     }
 }
 
-void add_parameters(const Scene& scene, const ShaderInstance& look,
+void add_parameters(const Grid& grid, const ShaderInstance& look,
                     const std::vector<rsl::Layer>& layers, Values& values) {
     for (uint32_t l = 0; l < layers.size(); ++l)
         for (const rsl::ShaderParameter& p : layers[l].shader->parameters) {
@@ -132,7 +132,7 @@ void add_parameters(const Scene& scene, const ShaderInstance& look,
             for (int e = array ? 0 : -1; e < (array ? p.type.array_length : 0); ++e)
                 for (int c = 0; c < rsl::component_count(p.type.base); ++c) {
                     KernelKey key = rsl::parameter_key(l, p.name, e, rsl::form_of(p.type.base), c);
-                    values[rsl::text(key)] = frame_number(scene, look, key);
+                    values[rsl::text(key)] = frame_number(grid, look, key);
                 }
         }
 }
@@ -151,10 +151,10 @@ rsl::ReferenceInputs point_inputs(const GridHost& host, const std::vector<rsl::L
     rsl::ReferenceInputs inputs;
     AllColumns columns(grid);
     add_globals(columns, inputs.values);
-    add_frame(grid.scene, inputs.values);
+    add_frame(grid.pose, inputs.values);
     add_spaces(host, inputs.values);
     add_varying(*grid.look, columns, inputs.values);
-    add_parameters(grid.scene, *grid.look, layers, inputs.values);
+    add_parameters(grid, *grid.look, layers, inputs.values);
     return inputs;
 }
 

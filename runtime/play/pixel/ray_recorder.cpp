@@ -32,13 +32,13 @@ void RayRecorder::record(const raytrace::RayPacket16& rays, bool any) {
         packets_.emplace_back(rays, any);
 }
 
-void RayRecorder::tell(const Scene& scene, PixelStory& story) {
+void RayRecorder::tell(const Scene& scene, const Pose& pose, PixelStory& story) {
     stop();
     story.rays_cut = packets_.size() > kMostPackets;
     for (const auto& [rays, any] : packets_) {
         raytrace::HitPacket16 hits;
         raytrace::TraceCounters ignored;
-        const uint32_t met = scene.accel.intersect16(rays, hits, ignored);
+        const uint32_t met = pose.accel.intersect16(rays, hits, ignored);
         for (uint32_t left = rays.active & 0xffffu; left; left &= left - 1) {
             const int k = std::countr_zero(left);
             const bool hit = met >> k & 1;

@@ -22,7 +22,7 @@ class RayRecorder final : public raytrace::PacketRecorder {
 
     // Ends recording and traces the rays again, to where they end. Those that meet nothing end at
     // the scene's size. World space.
-    void tell(const Scene& scene, PixelStory& story);
+    void tell(const Scene& scene, const Pose& pose, PixelStory& story);
 
   private:
     void record(const raytrace::RayPacket16& rays, bool any);

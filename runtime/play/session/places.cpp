@@ -33,17 +33,19 @@ uint32_t find_node(const Scene& scene, const std::string& wanted) {
     return kNone;
 }
 
-std::pair<dvec3, dvec3> box_of(const Scene& scene, uint32_t node) {
+std::pair<dvec3, dvec3> box_of(const Scene& scene, const Pose& pose, uint32_t node) {
     dvec3 low(1e300), high(-1e300);
-    for (const Shape& shape : scene.shapes) {
+    for (size_t s = 0; s < scene.shapes.size(); ++s) {
+        const Shape& shape = scene.shapes[s];
+        const ShapePose& stands = pose.shapes[s];
         uint32_t n = shape.node;
         while (n != node && n != kNone) n = scene.nodes[n].parent;
         if (n != node) continue;
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
         dvec3 anchor = scene.meshes[shape.mesh].anchor;
-        for (const vec4& position : shape.rest_positions) {
+        for (const vec4& position : stands.shown_positions) {
             dvec3 p = dvec3(vec3(position));
-            p = instanced ? dvec3(shape.world * dvec4(p + anchor, 1.0)) : p + scene.origin;
+            p = instanced ? dvec3(stands.world * dvec4(p + anchor, 1.0)) : p + scene.origin;
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
@@ -51,12 +53,13 @@ std::pair<dvec3, dvec3> box_of(const Scene& scene, uint32_t node) {
     return {low, high};
 }
 
-std::optional<dvec3> place_at(Scene& scene, const std::string& name, double seconds) {
+std::optional<dvec3> place_at(const Scene& scene, Pose& pose, const std::string& name,
+                              double seconds) {
     uint32_t node = find_node(scene, name);
     if (node == kNone) return std::nullopt;
-    evaluate(scene, seconds);
-    update_transforms(scene);
-    return dvec3(scene.nodes[node].world[3]);
+    evaluate(scene, pose, seconds);
+    update_transforms(scene, pose);
+    return dvec3(pose.nodes[node].world[3]);
 }
 
 }  // namespace kinora

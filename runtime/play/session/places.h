@@ -16,10 +16,11 @@ std::string node_path(const Scene& scene, uint32_t node);
 uint32_t find_node(const Scene& scene, const std::string& path_id_or_name);  // kNone: none
 
 // The box around what is on the node and below it, as it stands; nothing: low > high.
-std::pair<dvec3, dvec3> box_of(const Scene& scene, uint32_t node);
+std::pair<dvec3, dvec3> box_of(const Scene& scene, const Pose& pose, uint32_t node);
 
-// Where a node stands at a time, in seconds; the scene is evaluated there. Nothing where there is
+// Where a node stands at a time, in seconds; the pose is evaluated there. Nothing where there is
 // none of that name.
-std::optional<dvec3> place_at(Scene& scene, const std::string& node, double seconds);
+std::optional<dvec3> place_at(const Scene& scene, Pose& pose, const std::string& node,
+                              double seconds);
 
 }  // namespace kinora

@@ -5,27 +5,27 @@
 
 namespace kinora {
 
-void choose_camera(Scene& scene, const SessionCamera& camera) {
+void choose_camera(const Scene& scene, Pose& pose, const SessionCamera& camera) {
     auto is_it = [&](uint32_t index) {
         return index < scene.cameras.size() && scene.cameras[index].name == camera.name;
     };
     if (is_it(camera.index)) {
-        scene.camera = camera.index;
+        pose.camera = camera.index;
         return;
     }
     for (uint32_t index = 0; index < scene.cameras.size(); ++index) {
         if (!is_it(index)) continue;
-        scene.camera = index;
+        pose.camera = index;
         return;
     }
 }
 
-PlacedCamera placed_camera(Scene& scene, const FreeCamera& own,
+PlacedCamera placed_camera(const Scene& scene, Pose& pose, const FreeCamera& own,
                            const std::optional<std::pair<std::string, dvec3>>& follow,
                            double seconds) {
     PlacedCamera placed{own.optics(), own.world_from_camera()};
     if (!follow) return placed;
-    dvec3 position = place_at(scene, follow->first, seconds).value_or(follow->second);
+    dvec3 position = place_at(scene, pose, follow->first, seconds).value_or(follow->second);
     placed.world[3] += dvec4(position - follow->second, 0.0);
     return placed;
 }

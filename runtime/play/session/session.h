@@ -48,10 +48,10 @@ std::optional<Session> read_session(const std::string& file, std::string& error)
 // The same without its paths changed, for comparisons.
 std::string session_text(const Session& session);
 
-// Chooses the scene's camera.
-void choose_camera(Scene& scene, const SessionCamera& camera);
-// The camera moved by hand, at a time in seconds: where it follows a node the scene is evaluated.
-PlacedCamera placed_camera(Scene& scene, const FreeCamera& own,
+// Chooses the camera that the pose is seen by.
+void choose_camera(const Scene& scene, Pose& pose, const SessionCamera& camera);
+// The camera moved by hand, at a time in seconds: where it follows a node the pose is evaluated.
+PlacedCamera placed_camera(const Scene& scene, Pose& pose, const FreeCamera& own,
                            const std::optional<std::pair<std::string, dvec3>>& follow,
                            double seconds);
 

@@ -38,7 +38,7 @@ Json cameras(const Scene& scene) {
                         {"camera", shown(camera.id, camera.name)},
                         {"node", node_path(scene, scene.cameras[c].node)},
                         {"orthographic", camera.orthographic},
-                        {"chosen", c == scene.camera}});
+                        {"chosen", c == scene.start.camera}});
     }
     return list;
 }

@@ -170,14 +170,18 @@ BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
         built.scene =
             build_scene(std::make_shared<SceneDescription>(std::move(imported.description)),
                         imported.options, diagnostics, again);
-    if (built.scene && !light_black_scene(*built.scene, diagnostics)) built.scene.reset();
+    if (built.scene) built.pose = std::make_unique<Pose>(*built.scene);
+    if (built.scene && !light_black_scene(*built.scene, *built.pose, diagnostics)) {
+        built.pose.reset();
+        built.scene.reset();
+    }
     if (!built.scene || !built.scene->dice.triangles) built.redicer.reset();
     if (built.redicer) built.redicer->share(*built.scene, diagnostics.files);
     return built;
 }
 
-FrameSettings frame_settings(const SceneRequest& request, Scene& scene, Diagnostics& diagnostics,
-                             const std::atomic<int>* stop) {
+FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Pose& pose,
+                             Diagnostics& diagnostics, const std::atomic<int>* stop) {
     FrameSettings settings;
     double aspect = camera_aspect(scene).value_or(16.0 / 9.0);
     double width = request.width ? request.width : 640;
@@ -191,7 +195,7 @@ FrameSettings frame_settings(const SceneRequest& request, Scene& scene, Diagnost
     settings.stop = stop;
     double stops = request.exposure;
     if (request.auto_exposure) {
-        stops = auto_exposure(scene, settings, diagnostics);
+        stops = auto_exposure(scene, pose, settings, diagnostics);
         diagnostics.report(Code::EXPOSURE_AUTO, Location{}, stops);
     }
     settings.gain = std::exp2(stops);

@@ -33,15 +33,16 @@ void set_quality(SceneOptions& options, const Quality& quality);
 
 struct BuiltScene {
     std::unique_ptr<Scene> scene;      // null: findings say why
+    std::unique_ptr<Pose> pose;        // that its frames are made in
     std::unique_ptr<Redicer> redicer;  // null where nothing is diced
 };
 BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
                           const BuildAgain* again = nullptr);
 
 // The picture's size, its samples, filter and so on, and its gain. Automatic exposure makes small
-// pictures of the scene; a `stop` that is not 0 ends them.
-FrameSettings frame_settings(const SceneRequest& request, Scene& scene, Diagnostics& diagnostics,
-                             const std::atomic<int>* stop = nullptr);
+// pictures of the scene in `pose`; a `stop` that is not 0 ends them.
+FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Pose& pose,
+                             Diagnostics& diagnostics, const std::atomic<int>* stop = nullptr);
 
 // The seed of a frame.
 uint32_t frame_seed(const SceneRequest& request, int64_t frame);

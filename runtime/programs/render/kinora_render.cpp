@@ -206,7 +206,7 @@ void Render::dump() const {
 }
 
 void Render::print_explained() const {
-    auto rows = explain(*built_.scene, options_.quality, options_.preset);
+    auto rows = explain(*built_.scene, *built_.pose, options_.quality, options_.preset);
     std::string text = options_.explain == "json" ? explained_json(rows) : explained_text(rows);
     std::fputs(text.c_str(), stdout);
 }
@@ -350,7 +350,7 @@ void Render::end_write() {
 void Render::place_session_camera(double time) {
     if (!options_.session || !options_.session->camera.own) return;
     const SessionCamera& camera = options_.session->camera;
-    placed_ = placed_camera(*built_.scene, *camera.own, camera.follow, time);
+    placed_ = placed_camera(*built_.scene, *built_.pose, *camera.own, camera.follow, time);
     settings_.camera = &placed_;
 }
 
@@ -359,28 +359,29 @@ void Render::place_session_camera(double time) {
 // triangles leaves that no finer, by the first after all.
 bool Render::picture(FrameRecord& record, double time, const raytrace::Progress& progress) {
     place_session_camera(time);
-    auto render = [&](Scene& scene, double most_dice_error) {
+    auto render = [&](const Scene& scene, Pose& pose, double most_dice_error) {
         settings_.most_dice_error = most_dice_error;
-        return render_frame(scene, time, settings_, film_, record.stats, diagnostics_, &progress);
+        return render_frame(scene, pose, time, settings_, film_, record.stats, diagnostics_,
+                            &progress);
     };
-    bool whole = render(*built_.scene, built_.redicer ? kMostDiceError : 0);
+    bool whole = render(*built_.scene, *built_.pose, built_.redicer ? kMostDiceError : 0);
     record.dice_error = record.stats.dice_error;
     if (!record.stats.too_coarse) return whole;
     Stopwatch watch;
     diagnostics_.report(Code::DICE_AGAIN, Location{}, time, record.dice_error);
     CloserView view{time, {}};
-    if (settings_.camera) view.camera = built_.scene->view;
-    std::unique_ptr<Scene> closer = built_.redicer->make(view, diagnostics_);
-    if (closer) closer->camera = built_.scene->camera;
+    if (settings_.camera) view.camera = built_.pose->view;
+    PosedScene closer = built_.redicer->make(view, diagnostics_);
+    if (closer) closer.pose->camera = built_.pose->camera;
     record.redice_ms = watch.ms();
     if (g_signal) return false;
     if (closer) {
         double pixels = record.dice_error * built_.scene->dice.pixels;
         size_t known = diagnostics_.findings().size();
-        whole = render(*closer, pixels / closer->dice.pixels);
+        whole = render(*closer.scene, *closer.pose, pixels / closer.scene->dice.pixels);
         diagnostics_.drop_repeats(known);  // a scene tells some things in its first frame
     }
-    return closer && !record.stats.too_coarse ? whole : render(*built_.scene, 0);
+    return closer && !record.stats.too_coarse ? whole : render(*built_.scene, *built_.pose, 0);
 }
 
 // From here on a signal lets go of the frame under way; before, it just ends the process.
@@ -413,9 +414,9 @@ int Render::frames() {
     if (options_.frame_target.any())
         if (int code = choose_settings_for_target()) return code;
     diagnostics_.files.cut_long_lines();
-    settings_ = frame_settings(options_, *built_.scene, diagnostics_, &g_signal);
+    settings_ = frame_settings(options_, *built_.scene, *built_.pose, diagnostics_, &g_signal);
     if (const auto& session = options_.session) {
-        choose_camera(*built_.scene, session->camera);
+        choose_camera(*built_.scene, *built_.pose, session->camera);
         settings_.gain *= std::exp2(session->exposure);
         if (session->width > 0) settings_.width = session->width;
         if (session->height > 0) settings_.height = session->height;
@@ -534,8 +535,8 @@ bool Render::choose_samples(int64_t frame, double time, const raytrace::Progress
         settings.most_dice_error = 0;
         FrameStats stats;
         const size_t known = diagnostics_.findings().size();
-        bool whole =
-            render_frame(*built_.scene, time, settings, film, stats, diagnostics_, &progress);
+        bool whole = render_frame(*built_.scene, *built_.pose, time, settings, film, stats,
+                                  diagnostics_, &progress);
         diagnostics_.drop_repeats(known);
         return whole;
     };

@@ -132,11 +132,12 @@ void ShadeKernel::run() {
     if (stack_->lower.math == jit::math::Tier::Fast) flush.emplace();
     prints_.clear();
     PatchHost host(*patch_, prints_);
-    bound_.run_frame(StackNumbers(*stack_, *patch_, bound_.pair), host, record_sets_);
+    bound_.run_frame(frame_, StackNumbers(*stack_, *patch_, bound_.pair), host, record_sets_);
     for (size_t at = 0; at < patch_->count(); at += kSlice) {
         Arena::Mark mark = arena_.mark();
         bound_.run({.first = at,
                     .count = std::min(kSlice, patch_->count() - at),
+                    .frame = frame_,
                     .columns = columns_,
                     .out = out_,
                     .faults = faults_,
@@ -187,7 +188,7 @@ std::vector<std::string> ShadeKernel::unknown_spaces() const {
 void ShadeKernel::report_faults(Diagnostics& diagnostics) const {
     auto faulted = [&](size_t site) { return faults_[site] != 0; };
     kinora::report_faults(bound_.kernel(), faulted, diagnostics);
-    bound_.report_frame_faults(diagnostics);
+    bound_.report_frame_faults(frame_, diagnostics);
     if (stack_) prints_.report(stack_->layers.front().shader->name, diagnostics);
 }
 

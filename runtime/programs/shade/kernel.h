@@ -70,6 +70,7 @@ class ShadeKernel {
 
     rsl::LoweredShader lowered_;
     BoundKernel bound_;
+    FrameBlock frame_;
     const ShadeStack* stack_ = nullptr;
     const Patch* patch_ = nullptr;
     Arena arena_;

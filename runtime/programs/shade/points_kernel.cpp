@@ -36,6 +36,7 @@ std::span<float* const> PointsKernel::run(size_t count, const FillRow& fill, Ker
     faults_.resize(kernel.fault_sites.size());
     bound_.run({.first = 0,
                 .count = count,
+                .frame = frame_,
                 .columns = rows,
                 .out = out,
                 .faults = faults_,
@@ -54,7 +55,7 @@ void PointsKernel::run(const PointSet& points, const PointsStack& stack, Texture
     PointsHost host(points, textures, lights);
     host.set_shader_space(stack.current_from_shader);
     std::span<const jit::RecordSet> records = host.at_points(arena_);
-    bound_.run_frame(PointsFrameNumbers(points, stack, bound_.pair), host, records);
+    bound_.run_frame(frame_, PointsFrameNumbers(points, stack, bound_.pair), host, records);
     out_ = run(points.count(), fill, host, records, arena_);
     shader_ = stack.layers.back().shader->name;
     printed_ = host.printed();
@@ -79,7 +80,7 @@ void PointsKernel::report(Diagnostics& diagnostics) const {
     kinora::report_faults(
         bound_.kernel(), [&](size_t site) { return site < faults_.size() && faults_[site] != 0; },
         diagnostics);
-    bound_.report_frame_faults(diagnostics);
+    bound_.report_frame_faults(frame_, diagnostics);
 }
 
 }  // namespace kinora

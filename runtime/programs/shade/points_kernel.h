@@ -36,13 +36,15 @@ class PointsKernel {
     std::span<const float> output(const rsl::KernelKey& key) const;
     int find_output(const rsl::KernelKey& key) const;  // -1: none
     const rsl::LoweredShader& lowered() const { return lowered_; }
-    BoundKernel& bound() { return bound_; }
+    const BoundKernel& bound() const { return bound_; }
+    FrameBlock& frame() { return frame_; }
     // Of the last run over the points: faults, and what was printed beyond the limit.
     void report(Diagnostics& diagnostics) const;
 
   private:
     rsl::LoweredShader lowered_;
     BoundKernel bound_;
+    FrameBlock frame_;
     Arena arena_;
     std::span<float* const> out_;
     size_t count_ = 0;

@@ -136,8 +136,9 @@ jit::RecordSet PointsLights::run(const PointSet& points, const std::span<const f
                                            : points.frame_number(key, light->stack.numbers, space);
             }
         };
-        BoundKernel& bound = light->kernel->bound();
-        bound.run_frame(PointsFrameNumbers(points, light->stack, bound.pair), host);
+        const BoundKernel& bound = light->kernel->bound();
+        bound.run_frame(light->kernel->frame(),
+                        PointsFrameNumbers(points, light->stack, bound.pair), host);
         add_records(*light, light->kernel->run(count, fill, host, {}, arena), count, first, arena,
                     records);
     }

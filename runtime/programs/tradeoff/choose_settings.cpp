@@ -74,26 +74,26 @@ class Probing {
 
 // The picture's size is that of the scene at the settings asked for.
 bool Probing::open(std::string& why_not) {
-    std::unique_ptr<Scene> scene = renders_.build(request_.scene.quality);
+    PosedScene scene = renders_.build(request_.scene.quality);
     if (!scene) {
         why_not = "the scene gives no picture";
         return false;
     }
-    settings_ = renders_.settings_of(*scene);
+    settings_ = renders_.settings_of(scene);
     renders_.set_settings(settings_);
     return true;
 }
 
 std::optional<FrameCost> Probing::cost_of(const Quality& quality) {
-    std::unique_ptr<Scene> scene = renders_.build(quality);
+    PosedScene scene = renders_.build(quality);
     if (!scene) return std::nullopt;
     raytrace::Film film;
     // The shorter of two: what else the machine did is not the scene's.
     auto least_ms = [&](int samples) {
         Quality few = quality;
         few.samples_per_pixel = samples;
-        TimedFrame once = renders_.frame(*scene, few, frame_, 0, film);
-        TimedFrame again = renders_.frame(*scene, few, frame_, 0, film);
+        TimedFrame once = renders_.frame(scene, few, frame_, 0, film);
+        TimedFrame again = renders_.frame(scene, few, frame_, 0, film);
         return once.whole && again.whole ? std::min(once.wall_ms, again.wall_ms) : -1;
     };
     const double few_ms = least_ms(kFewCost), more_ms = least_ms(kMoreCost);
@@ -151,12 +151,12 @@ std::optional<ChosenSettings> Probing::for_time(std::string& why_not) {
 
 // Each with a seed of its own: 1, 2, ...
 bool Probing::render_films(const Quality& quality, std::span<raytrace::Film> films) {
-    std::unique_ptr<Scene> scene = renders_.build(quality);
+    PosedScene scene = renders_.build(quality);
     if (!scene) return false;
     Quality few = quality;
     few.samples_per_pixel = kBiasSamples;
     for (size_t i = 0; i < films.size(); ++i)
-        if (!renders_.frame(*scene, few, frame_, uint32_t(i + 1), films[i]).whole) return false;
+        if (!renders_.frame(scene, few, frame_, uint32_t(i + 1), films[i]).whole) return false;
     return true;
 }
 

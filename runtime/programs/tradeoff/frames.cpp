@@ -20,16 +20,17 @@ TradeFrame trade_frame(const FrameTimes& frames, size_t i, const char* why) {
 }
 
 // How far a vertex goes from the frame before to this one.
-double step_into(const FrameTimes& frames, size_t i, TradeRenders& renders, Scene& scene) {
+double step_into(const FrameTimes& frames, size_t i, TradeRenders& renders, PosedScene& scene) {
     if (!renders.pose(scene, frames[i - 1].second)) return 0;
-    auto before = vertex_positions(scene, kMostVertices);
+    auto stand = [&] { return vertex_positions(*scene.scene, *scene.pose, kMostVertices); };
+    const auto before = stand();
     if (!renders.pose(scene, frames[i].second)) return 0;
-    return largest_step(before, vertex_positions(scene, kMostVertices)).value_or(0);
+    return largest_step(before, stand()).value_or(0);
 }
 
 }  // namespace
 
-ChosenFrames choose_trade_frames(const FrameTimes& frames, TradeRenders& renders, Scene& scene,
+ChosenFrames choose_trade_frames(const FrameTimes& frames, TradeRenders& renders, PosedScene& scene,
                                  double most_ms) {
     ChosenFrames chosen;
     Stopwatch watch;

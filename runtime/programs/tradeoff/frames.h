@@ -13,6 +13,6 @@ struct ChosenFrames {
 // The frame into which vertices move most, then the last, the first and the middle one. Poses the
 // scene at up to some ten frames, evenly chosen, for at most `most_ms`.
 ChosenFrames choose_trade_frames(const std::vector<std::pair<int64_t, double>>& frames,
-                                 TradeRenders& renders, Scene& scene, double most_ms);
+                                 TradeRenders& renders, PosedScene& scene, double most_ms);
 
 }  // namespace kinora

@@ -54,7 +54,7 @@ bool Measurement::build_bases() {
     preview_.scene = renders_.build(variants_[kPreviewRow].quality);
     reference_scene_ = renders_.build(variants_[kReferenceRow].quality);
     if (!final_.scene || !preview_.scene || !reference_scene_) return false;
-    FrameSettings settings = renders_.settings_of(*final_.scene);
+    FrameSettings settings = renders_.settings_of(final_.scene);
     renders_.set_settings(settings);
     results_.asked_width = settings.width;
     results_.asked_height = settings.height;
@@ -65,12 +65,12 @@ bool Measurement::build_bases() {
 bool Measurement::look_ahead() {
     const double budget_ms = 1e3 * request_.budget_s;
     ChosenFrames chosen =
-        choose_trade_frames(request_.frames, renders_, *final_.scene, kFramesShare * budget_ms);
+        choose_trade_frames(request_.frames, renders_, final_.scene, kFramesShare * budget_ms);
     results_.frames = std::move(chosen.frames);
     results_.fastest_step = chosen.fastest_step;
     const double build_ms = input_.costs.build;
-    input_.costs = trial_costs(renders_, {.final_scene = *final_.scene,
-                                          .reference_scene = *reference_scene_,
+    input_.costs = trial_costs(renders_, {.final_scene = final_.scene,
+                                          .reference_scene = reference_scene_,
                                           .frame = results_.frames[0],
                                           .width = results_.asked_width,
                                           .height = results_.asked_height,
@@ -90,7 +90,7 @@ void Measurement::calibrate() {
     renders_.set_size(plan.width, plan.height);
     raytrace::Film scrap;
     const double ms =
-        renders_.frame(*reference_scene_, quality, results_.frames[0], 1, scrap).wall_ms;
+        renders_.frame(reference_scene_, quality, results_.frames[0], 1, scrap).wall_ms;
     TrialCosts& costs = input_.costs;
     const double estimated = costs.reference_sample * double(quality.samples_per_pixel) *
                              double(plan.width) * double(plan.height);
@@ -106,8 +106,8 @@ void Measurement::survey() {
         survey_variants(renders_,
                         {.variants = variants_,
                          .frames = results_.frames,
-                         .preview_scene = preview_.scene.get(),
-                         .final_scene = final_.scene.get(),
+                         .preview_scene = &preview_.scene,
+                         .final_scene = &final_.scene,
                          .width = results_.asked_width,
                          .height = results_.asked_height,
                          .most_ms = kSurveyShare * 1e3 * request_.budget_s},
@@ -210,9 +210,9 @@ bool Measurement::reference_frame(size_t f, TradeWork& work) {
     raytrace::Film films[2], scrap;
     for (uint32_t seed = 0; seed < 2; ++seed) {
         TimedFrame base =
-            renders_.frame(*final_.scene, quality_of(final_), results_.frames[f], 0, scrap);
+            renders_.frame(final_.scene, quality_of(final_), results_.frames[f], 0, scrap);
         TimedFrame timed =
-            renders_.frame(*reference_scene_, quality, results_.frames[f], seed + 1, films[seed]);
+            renders_.frame(reference_scene_, quality, results_.frames[f], seed + 1, films[seed]);
         if (!timed.whole || !base.whole) return false;
         final_.cpu_ms[f].push_back(base.cpu_ms);
         work.ratios.push_back(timed.cpu_ms / base.cpu_ms);
@@ -225,7 +225,7 @@ bool Measurement::reference_frame(size_t f, TradeWork& work) {
         mean.rgba[i] = 0.5f * (films[0].rgba[i] + films[1].rgba[i]);
     if (f == 0) results_.reference_png = picture_thumbnail(mean, request_.scene.color);
     references_.emplace_back(view_of(mean));
-    reference_posed_.push_back(posed(*reference_scene_, quality, f, true));
+    reference_posed_.push_back(posed(reference_scene_, quality, f, true));
     return true;
 }
 
@@ -247,7 +247,7 @@ bool Measurement::make_reference() {
     if (quality.samples_per_pixel != results_.plan.reference_samples)
         row.variant.name += fmt::format(" of {} samples", results_.plan.reference_samples);
     quality.samples_per_pixel = results_.plan.reference_samples;
-    TradeWork work{.row = &row, .index = kReferenceRow, .scene = reference_scene_.get()};
+    TradeWork work{.row = &row, .index = kReferenceRow, .scene = &reference_scene_};
     work.same = false;
     for (TradeBase* base : {&preview_, &final_}) base->cpu_ms.resize(results_.frames.size());
     Stopwatch watch;
@@ -274,14 +274,13 @@ bool Measurement::make_reference() {
 bool Measurement::measure_bases() {
     for (TradeBase* measured : {&preview_, &final_}) {
         TradeBase& base = *measured;
-        TradeWork work{
-            .row = &results_.rows[base.row], .index = base.row, .scene = base.scene.get()};
+        TradeWork work{.row = &results_.rows[base.row], .index = base.row, .scene = &base.scene};
         const Quality& quality = work.row->variant.quality;
         for (size_t f = 0; f < results_.frames.size(); ++f) {
-            renders_.frame(*base.scene, quality, results_.frames[f], 0, work.film);  // warms up
+            renders_.frame(base.scene, quality, results_.frames[f], 0, work.film);  // warms up
             for (size_t round = 0; round < results_.plan.rounds; ++round) {
                 TimedFrame timed =
-                    renders_.frame(*base.scene, quality, results_.frames[f], 0, work.film);
+                    renders_.frame(base.scene, quality, results_.frames[f], 0, work.film);
                 if (!timed.whole) return false;
                 base.cpu_ms[f].push_back(timed.cpu_ms);
                 work.wall_ms.push_back(timed.wall_ms);

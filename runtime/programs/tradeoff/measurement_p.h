@@ -19,7 +19,7 @@ struct Posed {
 
 struct TradeBase {
     size_t row;
-    std::unique_ptr<Scene> scene{};
+    PosedScene scene{};
     std::vector<raytrace::Film> films{};        // by frame
     std::vector<PictureErrors> errors{};        // by frame
     std::vector<std::vector<double>> cpu_ms{};  // by frame, all renders
@@ -29,8 +29,8 @@ struct TradeBase {
 struct TradeWork {
     TradeRow* row = nullptr;
     size_t index = 0;  // of the row
-    Scene* scene = nullptr;
-    std::unique_ptr<Scene> own{};  // where no base has the same
+    PosedScene* scene = nullptr;
+    PosedScene own{};  // where no base has the same
     std::vector<double> ratios{}, wall_ms{};
     std::array<double, kStageCount> stage_shares{};
     std::vector<PictureErrors> errors{};
@@ -71,7 +71,7 @@ class Measurement {
     void compare(TradeWork& work, TradeBase& base, size_t f, bool thumbnail);
     void probe(TradeWork& work, size_t f);
     void conclude(TradeWork& work);
-    Posed posed(Scene& scene, const Quality& quality, size_t f, bool colours);
+    Posed posed(PosedScene& scene, const Quality& quality, size_t f, bool colours);
     double row_ms(size_t row) const;
 
     TradeBase& base_of(size_t row) { return row == preview_.row ? preview_ : final_; }
@@ -86,7 +86,7 @@ class Measurement {
     TradeResults& results_;
     Stopwatch watch_;
     TradeBase preview_{kPreviewRow}, final_{kFinalRow};
-    std::unique_ptr<Scene> reference_scene_;
+    PosedScene reference_scene_;
     std::vector<ReferencePicture> references_;  // by frame: the mean of two
     std::vector<Posed> reference_posed_;        // by frame
     std::vector<Variant> variants_ = trade_variants();

@@ -15,15 +15,17 @@ namespace {
 
 constexpr float kNoHit = std::numeric_limits<float>::infinity();
 
-std::vector<dvec3> shape_positions(const Scene& scene, const Shape& shape, size_t most) {
+std::vector<dvec3> shape_positions(const Scene& scene, const Shape& shape, const ShapePose& stands,
+                                   size_t most) {
     std::vector<dvec3> positions;
-    size_t step = std::max<size_t>(1, (shape.rest_positions.size() + most - 1) / most);
+    std::span<const vec4> shown = stands.shown_positions;
+    size_t step = std::max<size_t>(1, (shown.size() + most - 1) / most);
     bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-    for (size_t i = 0; i < shape.rest_positions.size(); i += step) {
-        dvec3 p(shape.rest_positions[i]);
-        positions.push_back(instanced
-                                ? dvec3(shape.world * dvec4(p + scene.meshes[shape.mesh].anchor, 1))
-                                : p + scene.origin);
+    for (size_t i = 0; i < shown.size(); i += step) {
+        dvec3 p(shown[i]);
+        positions.push_back(
+            instanced ? dvec3(stands.world * dvec4(p + scene.meshes[shape.mesh].anchor, 1))
+                      : p + scene.origin);
     }
     return positions;
 }
@@ -45,8 +47,8 @@ void put_ray(const raytrace::Camera& camera, size_t pixel, raytrace::RayPacket16
 }
 
 // Raster position of a world point; nothing behind the camera.
-std::optional<dvec2> raster(const Scene& scene, const dvec3& world) {
-    const raytrace::Camera& camera = scene.view;
+std::optional<dvec2> raster(const Scene& scene, const Pose& pose, const dvec3& world) {
+    const raytrace::Camera& camera = pose.view;
     dvec3 d = world - scene.origin - camera.eye;
     double depth = camera.orthographic ? 1.0 : glm::dot(d, camera.forward);
     if (!(depth > 0)) return std::nullopt;
@@ -69,15 +71,16 @@ bool for_each_pair(std::span<const std::vector<dvec3>> a, std::span<const std::v
 
 }  // namespace
 
-std::vector<std::vector<dvec3>> vertex_positions(const Scene& scene, size_t most) {
+std::vector<std::vector<dvec3>> vertex_positions(const Scene& scene, const Pose& pose,
+                                                 size_t most) {
     std::vector<std::vector<dvec3>> positions;
-    for (const Shape& shape : scene.shapes)
-        positions.push_back(shape_positions(scene, shape, most));
+    for (size_t s = 0; s < scene.shapes.size(); ++s)
+        positions.push_back(shape_positions(scene, scene.shapes[s], pose.shapes[s], most));
     return positions;
 }
 
-std::vector<float> hit_distances(const Scene& scene) {
-    const raytrace::Camera& camera = scene.view;
+std::vector<float> hit_distances(const Pose& pose) {
+    const raytrace::Camera& camera = pose.view;
     const size_t count = size_t(camera.width) * size_t(camera.height);
     std::vector<float> distances(count, kNoHit);
     parallel_for(0, (count + raytrace::kPacket - 1) / raytrace::kPacket, 64,
@@ -91,7 +94,7 @@ std::vector<float> hit_distances(const Scene& scene) {
                          for (int k = 0; k < lanes; ++k)
                              put_ray(camera, first + size_t(k), rays, k);
                          rays.active = (1u << lanes) - 1;
-                         uint32_t hit = scene.accel.intersect16(rays, hits, counters);
+                         uint32_t hit = pose.accel.intersect16(rays, hits, counters);
                          for (int k = 0; k < lanes; ++k)
                              if (hit >> k & 1) distances[first + size_t(k)] = hits.t[k];
                      }
@@ -108,11 +111,12 @@ std::optional<double> largest_step(std::span<const std::vector<dvec3>> a,
     return same ? std::optional(largest) : std::nullopt;
 }
 
-std::optional<double> largest_step_pixels(const Scene& scene, std::span<const std::vector<dvec3>> a,
+std::optional<double> largest_step_pixels(const Scene& scene, const Pose& pose,
+                                          std::span<const std::vector<dvec3>> a,
                                           std::span<const std::vector<dvec3>> b) {
     double largest = 0;
     bool same = for_each_pair(a, b, [&](const dvec3& p, const dvec3& q) {
-        std::optional<dvec2> at_p = raster(scene, p), at_q = raster(scene, q);
+        std::optional<dvec2> at_p = raster(scene, pose, p), at_q = raster(scene, pose, q);
         if (at_p && at_q) largest = std::max(largest, glm::length(*at_p - *at_q));
     });
     return same ? std::optional(largest) : std::nullopt;

@@ -10,17 +10,18 @@
 namespace kinora {
 
 // World positions of the vertices of each shape, at most `most` of one, evenly chosen.
-std::vector<std::vector<dvec3>> vertex_positions(const Scene& scene, size_t most);
+std::vector<std::vector<dvec3>> vertex_positions(const Scene& scene, const Pose& pose, size_t most);
 
-// Distances along the rays through the pixels' centres of Scene::view; infinite where none is hit.
-// The scene's tree is that of the last frame.
-std::vector<float> hit_distances(const Scene& scene);
+// Distances along the rays through the pixels' centres of Pose::view; infinite where none is hit.
+// The pose's tree is that of the last frame.
+std::vector<float> hit_distances(const Pose& pose);
 
 // The largest distance between the same vertices; nothing where shapes have other numbers of them.
 std::optional<double> largest_step(std::span<const std::vector<dvec3>> a,
                                    std::span<const std::vector<dvec3>> b);
-// Likewise as Scene::view sees them, pixels; what lies behind the camera is left out.
-std::optional<double> largest_step_pixels(const Scene& scene, std::span<const std::vector<dvec3>> a,
+// Likewise as Pose::view sees them, pixels; what lies behind the camera is left out.
+std::optional<double> largest_step_pixels(const Scene& scene, const Pose& pose,
+                                          std::span<const std::vector<dvec3>> a,
                                           std::span<const std::vector<dvec3>> b);
 
 struct HitErrors {

@@ -18,17 +18,17 @@ WorkCounts work_of(const FrameStats& s) {
 
 }  // namespace
 
-std::unique_ptr<Scene> TradeRenders::build(const Quality& quality) {
+PosedScene TradeRenders::build(const Quality& quality) {
     ImportedScene imported = request_.imported;
     set_quality(imported.options, quality);
     const size_t known = diagnostics_.findings().size();
     BuiltScene built = build_imported(std::move(imported), diagnostics_);
     diagnostics_.drop_repeats(known);
-    return std::move(built.scene);
+    return {std::move(built.scene), std::move(built.pose)};
 }
 
-FrameSettings TradeRenders::settings_of(Scene& scene) {
-    return frame_settings(request_.scene, scene, diagnostics_, request_.stop);
+FrameSettings TradeRenders::settings_of(PosedScene& scene) {
+    return frame_settings(request_.scene, *scene.scene, *scene.pose, diagnostics_, request_.stop);
 }
 
 void TradeRenders::set_size(int width, int height) {
@@ -36,15 +36,15 @@ void TradeRenders::set_size(int width, int height) {
     settings_.height = height;
 }
 
-bool TradeRenders::pose(Scene& scene, double time) {
+bool TradeRenders::pose(PosedScene& scene, double time) {
     FrameStats stats;
     const size_t known = diagnostics_.findings().size();
-    bool posed = pose_frame(scene, time, settings_, stats, diagnostics_);
+    bool posed = pose_frame(*scene.scene, *scene.pose, time, settings_, stats, diagnostics_);
     diagnostics_.drop_repeats(known);
     return posed;
 }
 
-bool TradeRenders::render(Scene& scene, const Quality& quality, const TradeFrame& frame,
+bool TradeRenders::render(PosedScene& scene, const Quality& quality, const TradeFrame& frame,
                           uint32_t seed, raytrace::Film& film, FrameStats& stats) {
     FrameSettings settings = settings_;
     settings.integrator.samples_per_pixel = quality.samples_per_pixel;
@@ -53,12 +53,13 @@ bool TradeRenders::render(Scene& scene, const Quality& quality, const TradeFrame
     seeded.seed = request_.scene.seed + seed;
     settings.integrator.seed = frame_seed(seeded, frame.number);
     const size_t known = diagnostics_.findings().size();
-    bool whole = render_frame(scene, frame.time, settings, film, stats, diagnostics_);
+    bool whole =
+        render_frame(*scene.scene, *scene.pose, frame.time, settings, film, stats, diagnostics_);
     diagnostics_.drop_repeats(known);
     return whole;
 }
 
-TimedFrame TradeRenders::frame(Scene& scene, const Quality& quality, const TradeFrame& frame,
+TimedFrame TradeRenders::frame(PosedScene& scene, const Quality& quality, const TradeFrame& frame,
                                uint32_t seed, raytrace::Film& film) {
     TimedFrame timed;
     if (!pose(scene, frame.before)) return timed;
@@ -78,7 +79,7 @@ TimedFrame TradeRenders::frame(Scene& scene, const Quality& quality, const Trade
     return timed;
 }
 
-bool TradeRenders::centres(Scene& scene, const Quality& quality, const TradeFrame& frame,
+bool TradeRenders::centres(PosedScene& scene, const Quality& quality, const TradeFrame& frame,
                            raytrace::Film& film) {
     Quality one = quality;
     one.samples_per_pixel = 1;

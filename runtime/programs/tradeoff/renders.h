@@ -22,25 +22,25 @@ class TradeRenders {
     TradeRenders(const TradeoffRequest& request, Diagnostics& diagnostics)
         : request_(request), diagnostics_(diagnostics) {}
 
-    // Null: findings say why.
-    std::unique_ptr<Scene> build(const Quality& quality);
+    // Nothing: findings say why.
+    PosedScene build(const Quality& quality);
     // The size in pixels that the request and the scene's camera come to, and the gain.
-    FrameSettings settings_of(Scene& scene);
+    FrameSettings settings_of(PosedScene& scene);
     void set_settings(const FrameSettings& settings) { settings_ = settings; }
     void set_size(int width, int height);
 
     // Poses the scene at the frame before, then times the frame. seed: 0 for variants, 1 and 2 for
     // references.
-    TimedFrame frame(Scene& scene, const Quality& quality, const TradeFrame& frame, uint32_t seed,
-                     raytrace::Film& film);
+    TimedFrame frame(PosedScene& scene, const Quality& quality, const TradeFrame& frame,
+                     uint32_t seed, raytrace::Film& film);
     // With one sample, at pixels' centres; no time is taken.
-    bool centres(Scene& scene, const Quality& quality, const TradeFrame& frame,
+    bool centres(PosedScene& scene, const Quality& quality, const TradeFrame& frame,
                  raytrace::Film& film);
-    bool pose(Scene& scene, double time);
+    bool pose(PosedScene& scene, double time);
     bool stopped() const { return request_.stop && *request_.stop != 0; }
 
   private:
-    bool render(Scene& scene, const Quality& quality, const TradeFrame& frame, uint32_t seed,
+    bool render(PosedScene& scene, const Quality& quality, const TradeFrame& frame, uint32_t seed,
                 raytrace::Film& film, FrameStats& stats);
 
     const TradeoffRequest& request_;

@@ -62,7 +62,7 @@ class Survey {
     }
 
   private:
-    std::vector<SmallFrame> frames_of(Scene& scene, Quality quality) {
+    std::vector<SmallFrame> frames_of(PosedScene& scene, Quality quality) {
         quality.samples_per_pixel = kSurveySamples;
         std::vector<SmallFrame> frames;
         for (const TradeFrame& frame : request_.frames) {
@@ -86,9 +86,9 @@ class Survey {
         const std::vector<SmallFrame>& base = of_preview ? preview_ : final_;
         SurveyedVariant found{.same = false, .weight = weight_of(base)};
         if (variant.knob && !is_built_in(*variant.knob)) return found;
-        std::unique_ptr<Scene> scene = renders_.build(variant.quality);
+        PosedScene scene = renders_.build(variant.quality);
         if (!scene) return found;
-        const std::vector<SmallFrame> own = frames_of(*scene, variant.quality);
+        const std::vector<SmallFrame> own = frames_of(scene, variant.quality);
         found.weight = weight_of(own);
         found.same = may_be_same(variant) && std::ranges::equal(own, base, same_frame);
         return found;

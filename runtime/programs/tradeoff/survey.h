@@ -1,4 +1,5 @@
-// runtime/programs/tradeoff/survey.h: which settings do anything in a scene, found by small renders.
+// runtime/programs/tradeoff/survey.h: which settings do anything in a scene, found by small
+// renders.
 #pragma once
 
 #include <functional>
@@ -18,9 +19,9 @@ struct SurveyedVariant {
 struct SurveyRequest {
     std::span<const Variant> variants{};  // the presets first
     std::span<const TradeFrame> frames{};
-    Scene *preview_scene = nullptr, *final_scene = nullptr;  // scenes at these presets
-    int width = 0, height = 0;                   // asked for
-    double most_ms = 0;                          // variants that come later are not looked at
+    PosedScene *preview_scene = nullptr, *final_scene = nullptr;  // scenes at these presets
+    int width = 0, height = 0;                                    // asked for
+    double most_ms = 0;  // variants that come later are not looked at
 };
 
 // One for each variant. `how` says what was rendered: "32x24 pixels with 4 samples". The renders

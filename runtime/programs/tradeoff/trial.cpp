@@ -16,7 +16,7 @@ constexpr int kFewTrialSamples = 1, kMoreTrialSamples = 5;
 constexpr double kLargeTrialShare = 0.04;  // of the budget
 
 // Of one sample of one pixel.
-double sample_ms(TradeRenders& renders, Scene& scene, const Quality& quality,
+double sample_ms(TradeRenders& renders, PosedScene& scene, const Quality& quality,
                  const TradeFrame& frame) {
     raytrace::Film film;
     auto render = [&](int samples) {

@@ -7,7 +7,7 @@
 namespace kinora {
 
 struct TrialRequest {
-    Scene &final_scene, &reference_scene;  // scenes at these presets
+    PosedScene &final_scene, &reference_scene;  // scenes at these presets
     const TradeFrame& frame;
     int width = 0, height = 0;  // asked for
     double budget_ms = 0;

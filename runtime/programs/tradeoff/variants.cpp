@@ -36,14 +36,14 @@ void keep_most(std::optional<double>& most, std::optional<double> value) {
 
 }  // namespace
 
-Posed Measurement::posed(Scene& scene, const Quality& quality, size_t f, bool colours) {
+Posed Measurement::posed(PosedScene& scene, const Quality& quality, size_t f, bool colours) {
     Posed result;
     if (colours)
         renders_.centres(scene, quality, results_.frames[f], result.centres);
     else
         renders_.pose(scene, results_.frames[f].time);
-    result.hits = hit_distances(scene);
-    result.vertices = vertex_positions(scene, kMostVerticesCompared);
+    result.hits = hit_distances(*scene.pose);
+    result.vertices = vertex_positions(*scene.scene, *scene.pose, kMostVerticesCompared);
     return result;
 }
 
@@ -73,8 +73,8 @@ void Measurement::probe(TradeWork& work, size_t f) {
     const Posed& reference = reference_posed_[f];
     const Posed own = posed(*work.scene, variant.quality, f, colours);
     keep_most(errors.vertex_units, largest_step(own.vertices, reference.vertices));
-    keep_most(errors.vertex_pixels,
-              largest_step_pixels(*work.scene, own.vertices, reference.vertices));
+    keep_most(errors.vertex_pixels, largest_step_pixels(*work.scene->scene, *work.scene->pose,
+                                                        own.vertices, reference.vertices));
     HitErrors hits = hit_errors(own.hits, reference.hits);
     errors.hit_distance = std::max(errors.hit_distance, hits.distance);
     errors.hit_mismatch = std::max(errors.hit_mismatch, hits.mismatch);
@@ -87,13 +87,13 @@ void Measurement::probe(TradeWork& work, size_t f) {
 
 bool Measurement::prepare(TradeWork& work) {
     const Quality& quality = work.row->variant.quality;
-    for (const TradeBase* base : {&preview_, &final_})
-        if (scene_key(quality) == scene_key(quality_of(*base))) work.scene = base->scene.get();
+    for (TradeBase* base : {&preview_, &final_})
+        if (scene_key(quality) == scene_key(quality_of(*base))) work.scene = &base->scene;
     if (!work.scene) {
         Stopwatch watch;
         work.own = renders_.build(quality);
         work.row->times.build_ms = watch.ms();
-        work.scene = work.own.get();
+        work.scene = work.own ? &work.own : nullptr;
     }
     if (!work.scene) work.row->not_measured = "its scene could not be built";
     return work.scene != nullptr;
@@ -104,7 +104,7 @@ void Measurement::measure_frame(std::vector<TradeWork>& works, TradeBase& base, 
     const Quality& base_quality = quality_of(base);
     raytrace::Film scrap;
     auto time_base = [&] {
-        double ms = renders_.frame(*base.scene, base_quality, results_.frames[f], 0, scrap).cpu_ms;
+        double ms = renders_.frame(base.scene, base_quality, results_.frames[f], 0, scrap).cpu_ms;
         base.cpu_ms[f].push_back(ms);
         return ms;
     };

@@ -32,48 +32,55 @@ void BoundKernel::bind(jit::KernelPair kernels,
         columns.push_back(column_of(rsl::key_of(input)));
     services = services_of(*pair.point);
     if (!pair.frame) return;
-    const jit::Kernel& kernel = *pair.frame;
-    frame_services = services_of(kernel);
-    for (size_t i = 0; i < kernel.inputs.size(); ++i) in_.push_back(take_row(arena_, 1));
-    for (size_t o = 0; o < kernel.outputs.size(); ++o) out_.push_back(take_row(arena_, 1));
-    frame.resize(size_t(pair.point->frame_slots));
-    frame_faults.resize(kernel.fault_sites.size());
+    frame_services = services_of(*pair.frame);
 }
 
-void BoundKernel::run_frame(const FrameNumbers& numbers, KernelHost& host,
+void BoundKernel::size(FrameBlock& block) const {
+    const jit::Kernel& kernel = *pair.frame;
+    for (size_t i = 0; i < kernel.inputs.size(); ++i)
+        block.in_.push_back(take_row(block.arena_, 1));
+    for (size_t o = 0; o < kernel.outputs.size(); ++o)
+        block.out_.push_back(take_row(block.arena_, 1));
+    block.numbers.resize(size_t(pair.point->frame_slots));
+    block.faults.resize(kernel.fault_sites.size());
+}
+
+void BoundKernel::run_frame(FrameBlock& block, const FrameNumbers& numbers, KernelHost& host,
                             std::span<const jit::RecordSet> record_sets,
-                            const std::atomic<int>* stop) {
+                            const std::atomic<int>* stop) const {
     if (!pair.frame) return;
     const jit::Kernel& kernel = *pair.frame;
-    bool stands = frame_ran_ && frame_services.empty() && record_sets.empty();
-    for (size_t i = 0; i < in_.size(); ++i) {
+    if (block.numbers.empty() && block.out_.empty()) size(block);
+    bool stands = block.ran_ && frame_services.empty() && record_sets.empty();
+    for (size_t i = 0; i < block.in_.size(); ++i) {
         const float number = numbers.number(i);
-        stands = stands && std::bit_cast<uint32_t>(number) == std::bit_cast<uint32_t>(*in_[i]);
-        std::fill_n(in_[i], jit::padded(1), number);
+        float* const row = block.in_[i];
+        stands = stands && std::bit_cast<uint32_t>(number) == std::bit_cast<uint32_t>(*row);
+        std::fill_n(row, jit::padded(1), number);
     }
     if (stands) return;
-    std::ranges::fill(frame_faults, uint8_t(0));
-    Arena::Mark mark = arena_.mark();
+    std::ranges::fill(block.faults, uint8_t(0));
+    Arena::Mark mark = block.arena_.mark();
     jit::KernelCall{.kernel = kernel,
                     .count = 1,
-                    .in = {const_cast<const float* const*>(in_.data()), in_.size()},
-                    .out = out_,
+                    .in = {const_cast<const float* const*>(block.in_.data()), block.in_.size()},
+                    .out = block.out_,
                     .row_floats = jit::padded(1),
-                    .scratch = arena_.allocate_span<std::byte>(kernel.scratch_bytes),
-                    .faults = frame_faults,
+                    .scratch = block.arena_.allocate_span<std::byte>(kernel.scratch_bytes),
+                    .faults = block.faults,
                     .services = frame_services,
                     .record_sets = record_sets,
                     .host = &host,
                     .stop = stop}
         .run();
-    arena_.release(mark);
-    for (size_t i = 0; i < frame.size(); ++i) frame[i] = out_[i][0];
-    frame_ran_ = !stop || stop->load(std::memory_order_relaxed) == 0;
+    block.arena_.release(mark);
+    for (size_t i = 0; i < block.numbers.size(); ++i) block.numbers[i] = block.out_[i][0];
+    block.ran_ = !stop || stop->load(std::memory_order_relaxed) == 0;
 }
 
-void BoundKernel::report_frame_faults(Diagnostics& diagnostics) const {
-    if (!pair.frame) return;
-    auto faulted = [&](size_t site) { return frame_faults[site] != 0; };
+void BoundKernel::report_frame_faults(const FrameBlock& block, Diagnostics& diagnostics) const {
+    if (!pair.frame || block.faults.empty()) return;
+    auto faulted = [&](size_t site) { return block.faults[site] != 0; };
     report_faults(*pair.frame, faulted, diagnostics);
 }
 
@@ -98,7 +105,7 @@ void BoundKernel::run(const PointLaunch& launch, Arena& arena) const {
                                .in = in,
                                .out = out,
                                .row_floats = jit::padded(launch.count),
-                               .frame = frame,
+                               .frame = launch.frame.numbers,
                                .scratch = arena.allocate_span<std::byte>(kernel().scratch_bytes),
                                .faults = launch.faults,
                                .services = services,

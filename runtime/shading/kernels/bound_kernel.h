@@ -1,5 +1,5 @@
-// runtime/shading/kernels/bound_kernel.h: a compiled shader whose inputs, services and frame block
-// are bound, ready to run on points from any source.
+// runtime/shading/kernels/bound_kernel.h: a compiled shader whose inputs and services are bound,
+// ready to run on points from any source.
 #pragma once
 
 #include <atomic>
@@ -23,10 +23,26 @@ class FrameNumbers {
     virtual float number(size_t index) const = 0;
 };
 
+class BoundKernel;
+
+// What a frame kernel has computed: the numbers that a point kernel reads as broadcasts. Filled by
+// BoundKernel::run_frame; one for each frame that is under way.
+struct FrameBlock {
+    std::vector<float> numbers;
+    std::vector<uint8_t> faults;  // a byte a site of the frame kernel
+
+  private:
+    friend class BoundKernel;
+    Arena arena_{4096};  // rows of kMaxLanes floats for the frame kernel
+    std::vector<float*> in_, out_;
+    bool ran_ = false;  // to its end, with the numbers of in_
+};
+
 // What a point kernel runs on. Rows have padded(count) floats from `first` on.
 struct PointLaunch {
-    size_t first = 0;                 // of the rows' points
-    size_t count = 0;                 // points, > 0
+    size_t first = 0;  // of the rows' points
+    size_t count = 0;  // points, > 0
+    const FrameBlock& frame;
     std::span<float* const> columns;  // by Column; those that the kernel reads are not null
     std::span<float* const> out;      // a row an output
     std::span<uint8_t> faults;        // a byte a site
@@ -35,23 +51,24 @@ struct PointLaunch {
     const std::atomic<int>* stop = nullptr;  // KernelCall::stop
 };
 
-// A kernel pair with its frame block.
+// A kernel pair with its inputs and services.
 class BoundKernel {
   public:
     // `column_of` gives the column of a point kernel's input; it is asked once for each.
     void bind(jit::KernelPair kernels,
               const std::function<uint16_t(const rsl::KernelKey&)>& column_of);
     // Runs the frame kernel and fills the frame block. Where all numbers are as they were and no
-    // service or record is read, the block and the faults stand as they are. No allocation.
-    void run_frame(const FrameNumbers& numbers, KernelHost& host,
+    // service or record is read, the block and the faults stand as they are. No allocation after
+    // the first time.
+    void run_frame(FrameBlock& block, const FrameNumbers& numbers, KernelHost& host,
                    std::span<const jit::RecordSet> record_sets = {},
-                   const std::atomic<int>* stop = nullptr);
+                   const std::atomic<int>* stop = nullptr) const;
     // Runs the point kernel; its scratch memory is taken from `arena` and stays taken, as does what
     // services take there.
     void run(const PointLaunch& launch, Arena& arena) const;
 
-    // The faults of the frame kernel as it ran last, one finding for each source line.
-    void report_frame_faults(Diagnostics& diagnostics) const;
+    // The faults of the frame kernel, one finding for each source line.
+    void report_frame_faults(const FrameBlock& block, Diagnostics& diagnostics) const;
 
     const jit::Kernel& kernel() const { return *pair.point; }
     bool empty() const { return !pair.point; }
@@ -59,13 +76,9 @@ class BoundKernel {
     jit::KernelPair pair;
     std::vector<uint16_t> columns;                         // of the point kernel's inputs
     std::vector<jit::ServiceFn> services, frame_services;  // of both kernels, by slot
-    std::vector<float> frame;                              // the frame block
-    std::vector<uint8_t> frame_faults;                     // a byte a site of the frame kernel
 
   private:
-    Arena arena_{4096};  // rows of kMaxLanes floats for the frame kernel
-    std::vector<float*> in_, out_;
-    bool frame_ran_ = false;  // to its end, with the numbers of in_
+    void size(FrameBlock& block) const;
 };
 
 // Rows for all outputs of a kernel.

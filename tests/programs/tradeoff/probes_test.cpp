@@ -29,12 +29,14 @@ TEST(Steps, AreOfTheSameVertices) {
 // A camera that sees 2 units at distance 1 in 100 pixels: 50 pixels a unit there, 25 at distance 2.
 TEST(Steps, ShrinkWithTheirDistance) {
     Scene scene;
-    scene.view.width = scene.view.height = 100;
-    scene.view.half_width = scene.view.half_height = 1;
+    Pose pose;
+    pose.view.width = pose.view.height = 100;
+    pose.view.half_width = pose.view.half_height = 1;
     std::vector<std::vector<dvec3>> a{{{0, 0, 1}, {0, 0, 2}}}, b{{{0.1, 0, 1}, {0, 0.3, 2}}};
-    EXPECT_NEAR(largest_step_pixels(scene, a, b).value(), 7.5, 1e-12);
+    EXPECT_NEAR(largest_step_pixels(scene, pose, a, b).value(), 7.5, 1e-12);
     a = {{{0, 0, 1}, {0, 0, -1}}}, b = {{{0.1, 0, 1}, {9, 9, -1}}};
-    EXPECT_NEAR(largest_step_pixels(scene, a, b).value(), 5, 1e-12);  // what is behind is not seen
+    EXPECT_NEAR(largest_step_pixels(scene, pose, a, b).value(), 5,
+                1e-12);  // what is behind is not seen
 }
 
 TEST(UlpErrors, AreOfPixelsThatHitTheSame) {

@@ -235,11 +235,12 @@ void survive(const std::string& content, const char* extension) {
     auto scene =
         build_scene(std::make_shared<SceneDescription>(std::move(*d->scene)), {}, d->diagnostics);
     if (!scene) return;
+    Pose pose(*scene);
     FrameSettings settings;
     settings.width = settings.height = 4;
     raytrace::Film film;
     FrameStats stats;
-    render_frame(*scene, 0.5, settings, film, stats, d->diagnostics);
+    render_frame(*scene, pose, 0.5, settings, film, stats, d->diagnostics);
 }
 
 }  // namespace kinora

@@ -15,14 +15,16 @@ namespace {
 const std::string kFolder = project_folder() + "/assets/gltf/";
 
 // World positions of the shape on the node with that name, whatever kind it is.
-std::vector<dvec3> positions_of(const Scene& scene, std::string_view node) {
+std::vector<dvec3> positions_of(const Scene& scene, const Pose& pose,
+                                std::string_view node) {
     std::vector<dvec3> positions;
-    for (const Shape& shape : scene.shapes) {
+    for (size_t s = 0; s < scene.shapes.size(); ++s) {
+        const Shape& shape = scene.shapes[s];
         if (scene.description->nodes[scene.nodes[shape.node].definition].id != node) continue;
         const Mesh& mesh = scene.meshes[shape.mesh];
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-        for (const vec4& p : instanced ? mesh.positions : shape.positions)
-            positions.push_back(instanced ? dvec3(scene.nodes[shape.node].world *
+        for (const vec4& p : pose.shapes[s].shown_positions)
+            positions.push_back(instanced ? dvec3(pose.nodes[shape.node].world *
                                                   dvec4(dvec3(p) + mesh.anchor, 1.0))
                                           : dvec3(p) + scene.origin);
     }
@@ -45,7 +47,7 @@ TEST(GltfFromBlender, VerticesAreWhereBlenderHasThem) {
     for (const auto& frame : frames) {
         r->frame(frame["time"].get<double>());
         for (const char* node : {"post", "box"}) {
-            std::vector<dvec3> ours = positions_of(*r->scene, node), theirs;
+            std::vector<dvec3> ours = positions_of(*r->scene, *r->pose, node), theirs;
             for (const auto& p : frame["places"][node])
                 theirs.emplace_back(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
             ASSERT_FALSE(ours.empty()) << node;

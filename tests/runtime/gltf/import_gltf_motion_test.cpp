@@ -185,7 +185,7 @@ std::vector<dvec3> posed(Rendering& r, double time) {
     r.frame(time);
     if (!r.scene || r.scene->shapes.empty()) return {};
     std::vector<dvec3> positions;
-    for (const vec4& p : r.scene->shapes[0].positions)
+    for (const vec4& p : r.pose->shapes[0].shown_positions)
         positions.push_back(dvec3(p) + r.scene->origin);
     return positions;
 }

@@ -34,15 +34,18 @@ class Gliding {
         set_thread_count(2);
         auto imported = import_requested(request_, diagnostics_);
         rate_ = imported->rate;
-        scene_ = std::move(build_imported(std::move(*imported), diagnostics_).scene);
-        settings_ = frame_settings(request_, *scene_, diagnostics_);
+        BuiltScene built = build_imported(std::move(*imported), diagnostics_);
+        scene_ = std::move(built.scene);
+        pose_ = std::move(built.pose);
+        settings_ = frame_settings(request_, *scene_, *pose_, diagnostics_);
     }
 
     void frame(int64_t at, uint32_t seed, raytrace::Film& film, FirstHits* hits) {
         settings_.integrator.seed = seed;
         settings_.insight.first = hits;
         FrameStats stats;
-        EXPECT_TRUE(render_frame(*scene_, rate_.time(at), settings_, film, stats, diagnostics_));
+        EXPECT_TRUE(
+            render_frame(*scene_, *pose_, rate_.time(at), settings_, film, stats, diagnostics_));
     }
 
     // Brightness of a time without noise.
@@ -63,7 +66,7 @@ class Gliding {
         for (int k = 0; k < kFrames; ++k) {
             frame(kFirst + k, 100 * number + uint32_t(k), shown, &hits_);
             raw = shown;
-            EXPECT_TRUE(denoiser.filter(*scene_, hits_, shown));
+            EXPECT_TRUE(denoiser.filter(*scene_, *pose_, hits_, shown));
         }
     }
 
@@ -74,6 +77,7 @@ class Gliding {
     Diagnostics diagnostics_;
     FrameRate rate_;
     std::unique_ptr<Scene> scene_;
+    std::unique_ptr<Pose> pose_;
     FrameSettings settings_;
     FirstHits hits_;
 };

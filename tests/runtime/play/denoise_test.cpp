@@ -153,7 +153,8 @@ Filtered filtered(const std::string& name, bool moves, uint32_t pictures, int wi
     OpenedScene opened(request);
     Diagnostics& diagnostics = opened.diagnostics;
     const FrameRate rate = opened.rate;
-    Scene& scene = *opened.scene;
+    const Scene& scene = *opened.scene;
+    Pose& pose = *opened.pose;
     FrameSettings& settings = opened.settings;
     Denoiser denoiser;
     FirstHits hits;
@@ -169,19 +170,20 @@ Filtered filtered(const std::string& name, bool moves, uint32_t pictures, int wi
         settings.insight.first = &hits;
         if (camera) {
             if (moves) orbit(*camera, dvec3(0, 1, 0), 1.0, 0.5);
-            placed = placed_camera(scene, *camera, {}, rate.time(at));
+            placed = placed_camera(scene, pose, *camera, {}, rate.time(at));
             settings.camera = &placed;
         }
-        EXPECT_TRUE(render_frame(scene, rate.time(at), settings, film, stats, diagnostics));
-        if (!camera) camera = free_camera_of(scene.view, scene.origin, scene.size);
+        EXPECT_TRUE(render_frame(scene, pose, rate.time(at), settings, film, stats, diagnostics));
+        if (!camera) camera = free_camera_of(pose.view, scene.origin, scene.size);
         before = film;
-        result.noisy = denoiser.filter(scene, hits, film);
+        result.noisy = denoiser.filter(scene, pose, hits, film);
         if (frame + 1 < kFrames) continue;
         settings.insight.first = nullptr;
         raytrace::Film other;
         for (uint32_t k = 0; k < pictures; ++k) {
             settings.integrator.seed = 1000 + k;
-            EXPECT_TRUE(render_frame(scene, rate.time(at), settings, other, stats, diagnostics));
+            EXPECT_TRUE(
+                render_frame(scene, pose, rate.time(at), settings, other, stats, diagnostics));
             if (k == 0) wanted = other;
             for (size_t p = 0; k > 0 && p < other.rgba.size(); ++p)
                 wanted.rgba[p] += (other.rgba[p] - wanted.rgba[p]) / float(k + 1);

@@ -142,9 +142,10 @@ TEST(Guide, RaysBesideEdgesSuffice) {
     opened.settings.insight.first = &hits;
     raytrace::Film film;
     FrameStats stats;
-    ASSERT_TRUE(render_frame(*opened.scene, 0, opened.settings, film, stats, opened.diagnostics));
+    ASSERT_TRUE(render_frame(*opened.scene, *opened.pose, 0, opened.settings, film, stats,
+                             opened.diagnostics));
     PictureGuide small, whole, refined;
-    take_guide(hits, opened.scene->view, small);
+    take_guide(hits, opened.pose->view, small);
     make_guide(*opened.scene, 320, 180, whole);
     refine_guide(*opened.scene, small, 320, 180, refined);
     size_t taken = 0, surfaces = 0;

@@ -160,14 +160,16 @@ TEST(Pixel, LeavesTheMeasuresOfTheFrameBeforeAlone) {
     measured.insight.costs = &costs;
     raytrace::Film film;
     FrameStats stats;
-    ASSERT_TRUE(render_frame(*opened.scene, 0, measured, film, stats, opened.diagnostics));
+    ASSERT_TRUE(
+        render_frame(*opened.scene, *opened.pose, 0, measured, film, stats, opened.diagnostics));
     const size_t pixels = size_t(settings.width) * size_t(settings.height);
     ASSERT_EQ(first.surface.size(), pixels);
     std::ranges::fill(first.surface, 12345u);
     const std::vector<float> took = costs.ns;
     int seen = 0;
     for (int x = 0; x < settings.width; x += 4)
-        seen += !pixel_story(*opened.scene, 0, settings, opened.diagnostics.files, x, 18, 0)
+        seen += !pixel_story(*opened.scene, *opened.pose, 0, settings, opened.diagnostics.files, x,
+                             18, 0)
                      .points.empty();
     EXPECT_GE(seen, 5);
     EXPECT_EQ(std::ranges::count(first.surface, 12345u), ptrdiff_t(pixels));

@@ -51,12 +51,15 @@ struct OpenedScene {
         auto imported = import_requested(request, diagnostics);
         if (!imported) return;
         rate = imported->rate;
-        scene = build_imported(std::move(*imported), diagnostics).scene;
-        if (scene) settings = frame_settings(request, *scene, diagnostics);
+        BuiltScene built = build_imported(std::move(*imported), diagnostics);
+        scene = std::move(built.scene);
+        pose = std::move(built.pose);
+        if (scene) settings = frame_settings(request, *scene, *pose, diagnostics);
     }
     Diagnostics diagnostics;
     FrameRate rate;
     std::unique_ptr<Scene> scene;  // null: it is none
+    std::unique_ptr<Pose> pose;
     FrameSettings settings;
 };
 

@@ -14,8 +14,8 @@ raytrace::Film rendered(const SceneRequest& request, int64_t frame) {
     opened.settings.integrator.seed = frame_seed(request, frame);
     raytrace::Film film;
     FrameStats stats;
-    EXPECT_TRUE(render_frame(*opened.scene, opened.rate.time(frame), opened.settings, film, stats,
-                             opened.diagnostics));
+    EXPECT_TRUE(render_frame(*opened.scene, *opened.pose, opened.rate.time(frame), opened.settings,
+                             film, stats, opened.diagnostics));
     return film;
 }
 
