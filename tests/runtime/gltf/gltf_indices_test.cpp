@@ -37,7 +37,8 @@ bool is_index(const std::string& pointer) {
 
 std::vector<std::string> number_pointers(const json& whole) {
     std::vector<std::string> pointers;
-    for (const auto& [pointer, value] : whole.flatten().items())
+    const json flat = whole.flatten();
+    for (const auto& [pointer, value] : flat.items())
         if (value.is_number_integer()) pointers.push_back(pointer);
     return pointers;
 }
@@ -64,12 +65,12 @@ std::vector<std::string> some_of_each_kind(const std::vector<std::string>& point
 constexpr int64_t kNothing[] = {-1, 2147483647, 2147483648, 4294967295, 4294967296};
 
 TEST(GltfIndices, OneThatNamesNothingIsAFindingWithItsNumberAsWritten) {
-    const GltfText sound = whole_scene();
-    ASSERT_TRUE(check_gltf_indices(sound.json.dump()).faults.empty());
+    const json sound = json::parse(whole_scene().gltf());
+    ASSERT_TRUE(check_gltf_indices(sound.dump()).faults.empty());
     size_t indices = 0;
-    for (const std::string& pointer : number_pointers(sound.json)) {
+    for (const std::string& pointer : number_pointers(sound)) {
         for (int64_t number : kNothing) {
-            json changed = sound.json;
+            json changed = sound;
             changed[json::json_pointer(pointer)] = number;
             const std::string text = changed.dump();
             const GltfIndices found = check_gltf_indices(text);
@@ -81,7 +82,7 @@ TEST(GltfIndices, OneThatNamesNothingIsAFindingWithItsNumberAsWritten) {
             EXPECT_EQ(fault.value, std::to_string(number));
             EXPECT_EQ(text.substr(fault.range.begin, fault.range.end - fault.range.begin),
                       fault.value);
-            json mended = sound.json;  // nothing else changes
+            json mended = sound;  // nothing else changes
             mended[json::json_pointer(pointer)] = 2147483647;
             EXPECT_EQ(json::parse(found.mended), mended) << pointer;
         }
@@ -90,10 +91,10 @@ TEST(GltfIndices, OneThatNamesNothingIsAFindingWithItsNumberAsWritten) {
 }
 
 TEST(GltfIndices, TheListsSizeIsTheFirstThatNamesNothing) {
-    GltfText g = whole_scene();
-    const size_t nodes = g.json["nodes"].size();
+    const json sound = json::parse(whole_scene().gltf());
+    const size_t nodes = sound["nodes"].size();
     auto faults = [&](const char* pointer, size_t number) {
-        json changed = g.json;
+        json changed = sound;
         changed[json::json_pointer(pointer)] = number;
         return check_gltf_indices(changed.dump()).fault_count;
     };
@@ -132,7 +133,7 @@ TEST(GltfIndices, TextThatEndsAnywhereEndsTheCheck) {
 }
 
 TEST(GltfIndices, ASceneWithoutAnyOfItsNodesIsRefused) {
-    for (const char* nodes : {R"("nodes":[{"mesh":0}],)", ""})
+    for (const char* nodes : {R"("nodes":[{"name":"a"}],)", ""})
         for (const char* root : {"5", "4294967295", "-1"}) {
             const std::string text = std::string(R"({"asset":{"version":"2.0"},)") + nodes +
                                      R"("scene":0,"scenes":[{"nodes":[)" + root + "]}]}";
@@ -148,7 +149,7 @@ TEST(GltfIndices, ASceneWithoutAnyOfItsNodesIsRefused) {
 // In a .glb the JSON becomes longer than its chunk was.
 TEST(GltfIndices, AnIndexOfAGlbThatNamesNothingLeavesTheRest) {
     GltfText g;
-    g.node({{"mesh", g.square()}});
+    const size_t shown = size_t(g.node({{"mesh", g.square()}}));
     g.node({{"mesh", -1}});
     g.node({{"mesh", 4294967296}});
     for (bool binary : {true, false}) {
@@ -156,9 +157,9 @@ TEST(GltfIndices, AnIndexOfAGlbThatNamesNothingLeavesTheRest) {
         ASSERT_TRUE(d->scene) << d->findings();
         EXPECT_EQ(d->count("GLTF_REFERENCE"), 2) << d->findings();
         EXPECT_NE(d->findings().find("mesh 4294967296 is not there"), std::string::npos);
-        EXPECT_EQ(d->scene->nodes[0].meshes.size(), 1u);
-        EXPECT_EQ(d->scene->nodes[1].meshes.size(), 0u);
-        EXPECT_EQ(d->scene->nodes[2].meshes.size(), 0u);
+        EXPECT_EQ(d->scene->nodes[shown].meshes.size(), 1u);
+        EXPECT_EQ(d->scene->nodes[shown + 1].meshes.size(), 0u);
+        EXPECT_EQ(d->scene->nodes[shown + 2].meshes.size(), 0u);
     }
 }
 
@@ -213,10 +214,10 @@ size_t list_size(const json& whole, const std::string& pointer) {
     return whole.contains(list) && whole[list].is_array() ? whole[list].size() : 0;
 }
 
-// Every eighth is rendered, the others are imported alone.
+// One of 32 is rendered, the others are imported alone.
 void try_file(const json& changed, const std::string& buffer, size_t number) {
     const std::string glb = join_glb({changed.dump(), buffer});
-    if (number % 8 == 0)
+    if (number % 32 == 0)
         survive(glb, ".glb");
     else
         described(glb);
