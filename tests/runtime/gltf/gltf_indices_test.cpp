@@ -191,7 +191,7 @@ std::vector<std::string> twenty_files() {
     std::vector<std::string> files{whole_scene().glb(),
                                    file_bytes(project_folder() + "/assets/gltf/bender.glb")};
     for (const auto& path : sorted_files(project_folder() + "/assets/scenes", ".dae"))
-        files.push_back(exported(path));
+        if (std::string glb = exported(path); glb.size() < 300'000) files.push_back(std::move(glb));
     // Of the validator's documents those that have something new.
     std::map<std::string, bool> known;
     for (const auto& path : sorted_files(test_data_folder() + "/rules", ".ok.dae")) {
