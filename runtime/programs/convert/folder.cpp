@@ -8,6 +8,7 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/convert/folder_p.h"
@@ -27,6 +28,14 @@ void catch_stops() {
     for (int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
 }
 
+// ".NAME.ANYTHING.tmp" of one of these names.
+bool is_temporary_of(const std::string& file, const std::set<std::string>& names) {
+    if (!file.starts_with(".") || !file.ends_with(".tmp")) return false;
+    for (size_t dot = file.find('.', 1); dot != file.npos; dot = file.find('.', dot + 1))
+        if (names.contains(file.substr(1, dot - 1))) return true;
+    return false;
+}
+
 class FolderConversion {
   public:
     explicit FolderConversion(const ConvertOptions& options)
@@ -41,6 +50,7 @@ class FolderConversion {
             return kExitUnreadable;
         }
         if (int code = journal_.open(options_)) return code;
+        remove_temporaries();
         catch_stops();
         for (size_t f = 0; f < files_.size() && !stopped_by; ++f) {
             if (std::optional<FileRecord> known = journal_.find(files_[f])) {
@@ -57,7 +67,6 @@ class FolderConversion {
 
   private:
     void start(size_t f) {
-        remove_temporaries(files_[f]);
         ConversionProcess process;
         if (process.start(options_, files_[f])) {
             running_.emplace(process.pid(), std::pair(f, process));
@@ -68,16 +77,21 @@ class FolderConversion {
         records_[f].said = "no process can be started";
     }
 
-    // What a run that was killed left half written; this run alone writes here (FolderJournal).
-    void remove_temporaries(const FolderFile& file) const {
-        fs::path output = fs::path(options_.output) / file.output;
-        std::string prefix = "." + output.stem().string();
-        std::error_code code;
-        std::vector<fs::path> old;
-        for (const auto& entry : fs::directory_iterator(output.parent_path(), code)) {
-            std::string name = entry.path().filename().string();
-            if (name.starts_with(prefix) && name.ends_with(".tmp")) old.push_back(entry.path());
+    // What a run that was killed left half written. No process writes yet, and this run alone will
+    // (FolderJournal).
+    void remove_temporaries() const {
+        std::map<fs::path, std::set<std::string>> outputs;  // by their folder
+        for (const FolderFile& file : files_) {
+            fs::path output = fs::path(options_.output) / file.output;
+            outputs[output.parent_path()].insert(output.filename().string());
+            outputs[output.parent_path()].insert(output.stem().string() + ".bin");
         }
+        std::vector<fs::path> old;
+        std::error_code code;
+        for (const auto& [folder, names] : outputs)
+            for (const auto& entry : fs::directory_iterator(folder, code))
+                if (is_temporary_of(entry.path().filename().string(), names))
+                    old.push_back(entry.path());
         for (const fs::path& path : old) fs::remove(path, code);
     }
 

@@ -137,6 +137,16 @@ class Resume(Folders):
         for file in other.rglob("*.glb"):
             self.assertEqual(file.read_bytes(), (self.out / file.relative_to(other)).read_bytes())
 
+    def test_what_a_killed_run_left_half_written_goes_and_nothing_else(self):
+        left = [".3.glb.host.1.tmp", ".13.glb.2.tmp"]
+        others = [".3.glb", ".33.txt.1.tmp", "3.glb.tmp", ".unknown.glb.1.tmp"]
+        for name in left + others:
+            self.write(f"out/3/{name}", "half")
+        self.convert_all("-j", "2", code=1)
+        names = {f.name for f in (self.out / "3").iterdir()}
+        self.assertEqual(names & set(left), set())
+        self.assertLessEqual(set(others), names)
+
     def test_what_changed_is_converted_again(self):
         self.convert_all(code=1)
         at = {f: f.stat().st_mtime_ns for f in self.out.rglob("*.glb")}
