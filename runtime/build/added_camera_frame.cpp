@@ -13,10 +13,12 @@ namespace kinora {
 
 namespace {
 
-constexpr double kYfov = 37.0;      // degrees
-constexpr double kMostYfov = 170;   // of a picture's width, too
-constexpr double kNothing = 5e-4;   // of a picture: two of the rays of covered_share
-constexpr double kOften = 1.0 / 3;  // of the times: a view that shows something less often is none
+constexpr double kYfov = 37.0;     // degrees
+constexpr double kMostYfov = 170;  // of a picture's width, too
+constexpr double kNothing = 5e-4;  // of a picture: two of the rays of covered_share
+constexpr double kSpeck = 1e-2;    // under which a part is looked at instead of all
+// The share of the times at which a part has to be seen: one that is there at the start, another.
+constexpr double kOftenAtStart = 1.0 / 3, kOften = 1.0 / 2;
 
 }  // namespace
 
@@ -102,8 +104,13 @@ JudgedStand AddedCamera::judged(const Stand& stand) {
 
 bool AddedCamera::shows_often(const Stand& stand) {
     size_t shown = 0;
-    for (size_t t = 0; t < times_.size(); ++t) shown += covered_at(stand, t) >= kLittle;
-    return double(shown) >= kOften * double(times_.size());
+    bool at_start = false;
+    for (size_t t = 0; t < times_.size(); ++t) {
+        bool shows = covered_at(stand, t) >= kLittle;
+        at_start |= shows && t == 0;
+        shown += shows;
+    }
+    return double(shown) >= (at_start ? kOftenAtStart : kOften) * double(times_.size());
 }
 
 // A few vertices far from all others: nothing is left out for less than a picture.
@@ -176,7 +183,7 @@ Stand AddedCamera::frame(Diagnostics& diagnostics) {
         diagnostics.report(Code::SCENE_STRAY, Location{});
         return best.stand;
     }
-    if (stay_with_most(best, diagnostics)) return best.stand;
+    if (best.share < kSpeck && stay_with_most(best, diagnostics)) return best.stand;
     if (best.share >= kNothing || !anything_to_draw(scene_)) return best.stand;
     if (times_.size() > 1) pose_at(scene_, times_[0]);
     dvec3 middle = core_of(subject_now(true)).middle - origin(0);
