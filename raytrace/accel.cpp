@@ -94,14 +94,11 @@ void record_packets(PacketRecorder* recorder) {
     g_recorder = recorder;
 }
 
-uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
-                            TraceCounters& counters) const {
-    const State& s = *state_;
-    if (g_recorder) [[unlikely]]
-        g_recorder->closest(rays);
+namespace {
+
+uint32_t closest(const Accel::State& s, const RayPacket16& rays, HitPacket16& hits,
+                 TraceCounters& counters) {
     Lanes lanes = classify(rays, s.largest_origin);
-    ++counters.packets;
-    counters.rays += uint64_t(std::popcount(rays.active & 0xffffu));
     counters.filtered += uint64_t(std::popcount(lanes.filtered));
     bool as_they_are = lanes.sound == rays.active;
     if (as_they_are && s.top) return s.top.intersect16(rays, s.map, s.policy.fixed_winner, hits);
@@ -117,13 +114,8 @@ uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
     return hit;
 }
 
-uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) const {
-    const State& s = *state_;
-    if (g_recorder) [[unlikely]]
-        g_recorder->any(rays);
+uint32_t any(const Accel::State& s, const RayPacket16& rays, TraceCounters& counters) {
     Lanes lanes = classify(rays, s.largest_origin);
-    ++counters.shadow_packets;
-    counters.shadow_rays += uint64_t(std::popcount(rays.active & 0xffffu));
     counters.filtered += uint64_t(std::popcount(lanes.filtered));
     if (!s.top) return 0;
     if (lanes.sound == rays.active) return s.top.occluded16(rays);
@@ -135,12 +127,37 @@ uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) con
     return s.top.occluded16(copy);
 }
 
+}  // namespace
+
+uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
+                            TraceCounters& counters) const {
+    const State& s = *state_;
+    if (g_recorder) [[unlikely]]
+        g_recorder->closest(rays);
+    ++counters.packets;
+    counters.rays += uint64_t(std::popcount(rays.active & 0xffffu));
+    if (s.scale == 1) return closest(s, rays, hits, counters);
+    const uint32_t hit = closest(s, scaled(rays, s.scale), hits, counters);
+    unscale(hits, hit, s.scale);
+    return hit;
+}
+
+uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) const {
+    const State& s = *state_;
+    if (g_recorder) [[unlikely]]
+        g_recorder->any(rays);
+    ++counters.shadow_packets;
+    counters.shadow_rays += uint64_t(std::popcount(rays.active & 0xffffu));
+    return s.scale == 1 ? any(s, rays, counters) : any(s, scaled(rays, s.scale), counters);
+}
+
 uint32_t Accel::body(uint32_t row) const {
     return state_->map.rows[row].body;
 }
 
 void Accel::bounds(vec3& low, vec3& high) const {
     state_->top.bounds(low, high);
+    for (vec3* corner : {&low, &high}) *corner = *corner / state_->scale;
 }
 
 const AccelPolicy& Accel::policy() const {

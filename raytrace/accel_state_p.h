@@ -10,6 +10,7 @@
 #include "raytrace/embree_p.h"
 #include "raytrace/mesh_watch_p.h"
 #include "raytrace/placement_p.h"
+#include "raytrace/scale_p.h"
 
 namespace kinora::raytrace {
 
@@ -27,6 +28,7 @@ struct StaticGroup {
 struct InstancedShape {
     uint32_t first_row = 0;
     bool dynamic = false;
+    float scale = 1;  // Embree's vertices from those of its space
     EmbreeScene scene;
     EmbreeMesh mesh;
     std::vector<uint32_t> kept;  // without_untraceable() of the vertices that the tree was built of
@@ -71,6 +73,8 @@ struct BackgroundBuild {
 
 struct Accel::State {
     AccelPolicy policy;
+    double size = 1;  // of the rows as they were first given, about
+    float scale = 1;  // of the top scene: Embree's space from accel space
     std::vector<GeometryState> rows;
     std::vector<std::unique_ptr<StaticGroup>> groups;
     std::vector<InstancedShape> shapes;

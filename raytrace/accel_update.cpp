@@ -23,8 +23,13 @@ void Updater::note(GeometryIssue issue, uint32_t id, uint32_t count) {
     s.report.issues.push_back({issue, id, count});
 }
 
+// Embree drops what lies farther off in its own space.
+float Updater::largest_vertex(const Geometry& g) const {
+    return g.kind == GeometryKind::Instanced ? kLargest : kLargest / std::max(s.scale, 1.0f);
+}
+
 BoxAreas Updater::watch(const Geometry& g) {
-    BoxAreas areas = box_areas(g.positions, g.triangles, s.partial);
+    BoxAreas areas = box_areas(g.positions, g.triangles, largest_vertex(g), s.partial);
     if (areas.bad_triangles > 0) note(GeometryIssue::BadVertices, g.id, areas.bad_triangles);
     return areas;
 }
@@ -74,6 +79,8 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
         s.rows[i].sound = sound(geometry[i]);
         s.any_hidden_backfaces |= geometry[i].hide_backfaces;
     }
+    s.size = size_of(geometry);
+    s.scale = top_scale(s.size);
     add_static_groups();
     for (uint32_t i = 0; i < geometry.size(); ++i) {
         if (geometry[i].kind == GeometryKind::Deforming) add_deforming(i);
@@ -109,7 +116,7 @@ void Updater::add_static_groups() {
         if (is_new)
             group->positions.insert(group->positions.end(), g.positions.begin(), g.positions.end());
         const size_t corners = g.triangles.size() / 3 * 3;
-        const std::vector<uint32_t> kept = without_untraceable(g.positions, g.triangles);
+        const std::vector<uint32_t> kept = without_untraceable(g.positions, g.triangles, s.scale);
         const std::span<const uint32_t> triangles = kept.empty() ? g.triangles : kept;
         for (size_t k = 0; k < corners; ++k)
             group->triangles.push_back(triangles[k] == kNone ? kNone : base + triangles[k]);
@@ -118,7 +125,7 @@ void Updater::add_static_groups() {
     for (auto& group : s.groups) {
         const Geometry& g = s.rows[group->owner.front()].seen;
         group->mesh = EmbreeMesh(group->positions, group->triangles, BuildQuality::Medium,
-                                 mask_of(g), filtered(g));
+                                 mask_of(g), filtered(g), s.scale);
         s.map.slots[group->slot].owner = group->owner.data();
         s.top.attach(group->mesh, group->slot);
         ++s.report.rebuilds;
@@ -140,7 +147,7 @@ bool Updater::has_first_pose(const GeometryState& row) const {
     const Geometry& g = row.seen;
     return deforming_quality() == BuildQuality::Refit && row.kept.empty() &&
            g.built_from.size() == g.positions.size() &&
-           without_untraceable(g.built_from, g.triangles).empty();
+           without_untraceable(g.built_from, g.triangles, s.scale).empty();
 }
 
 void Updater::leave_first_poses() {
@@ -153,7 +160,7 @@ void Updater::leave_first_poses() {
 void Updater::rebuild(GeometryState& row, BuildQuality quality, double area) {
     const Geometry& g = row.seen;
     if (row.attached) s.top.detach(row.slot);
-    row.mesh = EmbreeMesh(g.positions, row.triangles(), quality, mask_of(g), filtered(g));
+    row.mesh = EmbreeMesh(g.positions, row.triangles(), quality, mask_of(g), filtered(g), s.scale);
     s.top.attach(row.mesh, row.slot);
     row.attached = true;
     row.quality = quality;
@@ -165,7 +172,8 @@ void Updater::rebuild(GeometryState& row, BuildQuality quality, double area) {
 // Returns whether other triangles are traceable than before, for which a tree must be built.
 bool Updater::find_traceable(GeometryState& row) {
     if (!row.sound) return false;
-    std::vector<uint32_t> kept = without_untraceable(row.seen.positions, row.seen.triangles);
+    std::vector<uint32_t> kept =
+        without_untraceable(row.seen.positions, row.seen.triangles, s.scale);
     if (kept == row.kept) return false;
     s.background.reset();  // it reads the old ones
     row.kept = std::move(kept);

@@ -327,10 +327,11 @@ std::jthread open_ray_tracer_early() {
 }
 
 EmbreeMesh::EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t> triangles,
-                       BuildQuality quality, uint32_t mask, bool filtered) {
+                       BuildQuality quality, uint32_t mask, bool filtered, float scale)
+    : positions_(positions), scale_(scale) {
     RTCGeometry g = new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
     geometry_ = g;
-    set_buffers(g, positions, triangles);
+    set_buffers(g, traced(), triangles);
     embree().rtcSetGeometryBuildQuality(
         g, kQualities[int(quality)]);  // only heard before the first commit
     embree().rtcSetGeometryMask(g, mask);
@@ -342,15 +343,25 @@ EmbreeMesh::~EmbreeMesh() {
     if (geometry_) embree().rtcReleaseGeometry(geometry(geometry_));
 }
 
+std::span<const vec4> EmbreeMesh::traced() {
+    if (scale_ == 1) return positions_;
+    scaled_.resize(positions_.size());
+    std::ranges::transform(positions_, scaled_.begin(), [&](const vec4& p) { return p * scale_; });
+    return scaled_;
+}
+
 void EmbreeMesh::vertices_moved() {
+    traced();
     embree().rtcUpdateGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0);
     embree().rtcCommitGeometry(geometry(geometry_));
 }
 
 void EmbreeMesh::vertices_moved_to(std::span<const vec4> positions) {
+    positions_ = positions;
+    const std::span<const vec4> seen = traced();
     embree().rtcSetSharedGeometryBuffer(geometry(geometry_), RTC_BUFFER_TYPE_VERTEX, 0,
-                                        RTC_FORMAT_FLOAT3, positions.data(), 0, sizeof(vec4),
-                                        positions.size());
+                                        RTC_FORMAT_FLOAT3, seen.data(), 0, sizeof(vec4),
+                                        seen.size());
     embree().rtcCommitGeometry(geometry(geometry_));
 }
 

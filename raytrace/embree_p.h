@@ -32,15 +32,19 @@ struct HitMap {
     std::vector<Row> rows;
 };
 
-// One triangle mesh. Positions are read in place (16-byte stride), triangles too.
+// One triangle mesh. Positions are read in place (16-byte stride), triangles too. With a `scale`
+// other than 1 (scale_p.h) positions are copied and scaled.
 class EmbreeMesh {
   public:
     EmbreeMesh() = default;
     EmbreeMesh(std::span<const vec4> positions, std::span<const uint32_t> triangles,
-               BuildQuality quality, uint32_t mask, bool filtered);
-    EmbreeMesh(EmbreeMesh&& o) noexcept : geometry_(std::exchange(o.geometry_, nullptr)) {}
+               BuildQuality quality, uint32_t mask, bool filtered, float scale);
+    EmbreeMesh(EmbreeMesh&& o) noexcept { *this = std::move(o); }
     EmbreeMesh& operator=(EmbreeMesh&& o) noexcept {
         std::swap(geometry_, o.geometry_);
+        std::swap(positions_, o.positions_);
+        std::swap(scale_, o.scale_);
+        std::swap(scaled_, o.scaled_);
         return *this;
     }
     ~EmbreeMesh();
@@ -49,7 +53,11 @@ class EmbreeMesh {
 
   private:
     friend class EmbreeScene;
+    std::span<const vec4> traced();  // positions_ as Embree sees them
     void* geometry_ = nullptr;
+    std::span<const vec4> positions_;
+    float scale_ = 1;
+    std::vector<vec4> scaled_;  // empty where the scale is 1
 };
 
 class EmbreeScene;

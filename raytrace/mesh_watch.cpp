@@ -30,7 +30,7 @@ float4 max4(float4 a, float4 b) {
     return a > b ? a : b;
 }
 
-void add_triangle(const vec4* positions, const uint32_t* corner, BoxAreas& areas) {
+void add_triangle(const vec4* positions, const uint32_t* corner, float largest, BoxAreas& areas) {
     float4 a = load(positions[corner[0]]), b = load(positions[corner[1]]),
            c = load(positions[corner[2]]);
     float4 low = min4(min4(a, b), c), high = max4(max4(a, b), c);
@@ -38,7 +38,7 @@ void add_triangle(const vec4* positions, const uint32_t* corner, BoxAreas& areas
     float4 e = (high - low) + 0.0f * (a + b + c);
     float4 far = max4(high, -low);
     float area = e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
-    bool near = (far[0] <= kLargest) & (far[1] <= kLargest) & (far[2] <= kLargest);
+    bool near = (far[0] <= largest) & (far[1] <= largest) & (far[2] <= largest);
     if (near & (area >= 0))
         areas.sum += double(area);
     else
@@ -53,7 +53,7 @@ uint32_t count_bad_indices(size_t vertices, std::span<const uint32_t> triangles)
 }
 
 BoxAreas box_areas(std::span<const vec4> positions, std::span<const uint32_t> triangles,
-                   std::vector<BoxAreas>& partial) {
+                   float largest, std::vector<BoxAreas>& partial) {
     const size_t count = triangles.size() / 3;
     const size_t stride = count < kSampleAllBelow ? 1 : kSampleStride;
     const size_t looks = (count + stride - 1) / stride;
@@ -64,7 +64,7 @@ BoxAreas box_areas(std::span<const vec4> positions, std::span<const uint32_t> tr
             BoxAreas areas;
             size_t end = std::min(looks, (chunk + 1) * kChunk);
             for (size_t look = chunk * kChunk; look < end; ++look)
-                add_triangle(positions.data(), &triangles[3 * look * stride], areas);
+                add_triangle(positions.data(), &triangles[3 * look * stride], largest, areas);
             partial[chunk] = areas;
         }
     });

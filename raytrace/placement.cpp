@@ -24,10 +24,17 @@ double gain(const dvec3 columns[3]) {
 
 }  // namespace
 
-bool make_placement(const dmat4& matrix, Placement& out) {
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 3; ++r) out.m[3 * c + r] = float(matrix[c][r]);
-    dvec3 x{matrix[0]}, y{matrix[1]}, z{matrix[2]}, t{matrix[3]};
+bool make_placement(const dmat4& matrix, float accel_scale, float local_scale, Placement& out) {
+    const double gain_scale = double(accel_scale) / double(local_scale);
+    for (int c = 0; c < 4; ++c) {
+        const double scale = c < 3 ? gain_scale : double(accel_scale);
+        for (int r = 0; r < 3; ++r) {
+            out.m[3 * c + r] = float(matrix[c][r]);
+            out.traced[3 * c + r] = float(scale * matrix[c][r]);
+        }
+    }
+    const dvec3 x = gain_scale * dvec3{matrix[0]}, y = gain_scale * dvec3{matrix[1]},
+                z = gain_scale * dvec3{matrix[2]}, t = double(accel_scale) * dvec3{matrix[3]};
     // Columns of the cofactor matrix; they are also the rows of the inverse times det.
     const dvec3 cofactors[3] = {cross(y, z), cross(z, x), cross(x, y)};
     const double determinant = dot(x, cofactors[0]);

@@ -27,8 +27,15 @@ float4 load(const vec4& p) {
     return v;
 }
 
-bool longer(float4 extent) {
-    return (extent[0] > kLeastExtent) | (extent[1] > kLeastExtent) | (extent[2] > kLeastExtent);
+// What of the caller's numbers Embree takes at a scale.
+struct Range {
+    explicit Range(float scale)
+        : largest(kLargest / std::max(scale, 1.0f)), least_extent(kLeastExtent / scale) {}
+    float largest, least_extent;
+};
+
+bool longer(float4 extent, float least) {
+    return (extent[0] > least) | (extent[1] > least) | (extent[2] > least);
 }
 
 float4 absolute(float4 v) {
@@ -36,9 +43,16 @@ float4 absolute(float4 v) {
 }
 
 // False for NaN, too.
-bool in_range(float4 p) {
+bool in_range(float4 p, float largest) {
     const float4 size = absolute(p);
-    return (size[0] <= kLargest) & (size[1] <= kLargest) & (size[2] <= kLargest);
+    return (size[0] <= largest) & (size[1] <= largest) & (size[2] <= largest);
+}
+
+bool is_traceable(const vec4& a, const vec4& b, const vec4& c, const Range& range) {
+    const float4 p = load(a), q = load(b), r = load(c);
+    return in_range(p, range.largest) && in_range(q, range.largest) && in_range(r, range.largest) &&
+           (longer(absolute(p - q), range.least_extent) ||
+            longer(absolute(p - r), range.least_extent));
 }
 
 // Whether look(first, last) holds for all chunks of so many things.
@@ -53,9 +67,9 @@ bool all_chunks(size_t count, const Look& look) {
     return all;
 }
 
-bool all_in_range(std::span<const vec4> positions) {
+bool all_in_range(std::span<const vec4> positions, float largest) {
     return all_chunks(positions.size(), [&](size_t first, size_t last) {
-        const float4 most = {kLargest, kLargest, kLargest, kLargest};
+        const float4 most = {largest, largest, largest, largest};
         int4 bad = {0, 0, 0, 0};
         for (size_t i = first; i < last; ++i) bad |= ~(absolute(load(positions[i])) <= most);
         return (bad[0] | bad[1] | bad[2]) == 0;
@@ -63,13 +77,14 @@ bool all_in_range(std::span<const vec4> positions) {
 }
 
 // One coordinate apart is enough, nearly always so of the first two corners.
-bool all_have_extent(std::span<const vec4> positions, std::span<const uint32_t> triangles) {
+bool all_have_extent(std::span<const vec4> positions, std::span<const uint32_t> triangles,
+                     const Range& range) {
     return all_chunks(triangles.size() / 3, [&](size_t first, size_t last) {
         for (size_t i = first; i < last; ++i) {
             const uint32_t* corner = &triangles[3 * i];
             const vec4 &a = positions[corner[0]], &b = positions[corner[1]];
-            if (std::abs(a.x - b.x) > kLeastExtent) continue;
-            if (!is_traceable(a, b, positions[corner[2]])) return false;
+            if (std::abs(a.x - b.x) > range.least_extent) continue;
+            if (!is_traceable(a, b, positions[corner[2]], range)) return false;
         }
         return true;
     });
@@ -77,20 +92,20 @@ bool all_have_extent(std::span<const vec4> positions, std::span<const uint32_t> 
 
 }  // namespace
 
-bool is_traceable(const vec4& a, const vec4& b, const vec4& c) {
-    const float4 p = load(a), q = load(b), r = load(c);
-    return in_range(p) && in_range(q) && in_range(r) &&
-           (longer(absolute(p - q)) || longer(absolute(p - r)));
+bool is_traceable(const vec4& a, const vec4& b, const vec4& c, float scale) {
+    return is_traceable(a, b, c, Range(scale));
 }
 
 std::vector<uint32_t> without_untraceable(std::span<const vec4> positions,
-                                          std::span<const uint32_t> triangles) {
-    if (all_in_range(positions) && all_have_extent(positions, triangles)) return {};
+                                          std::span<const uint32_t> triangles, float scale) {
+    const Range range(scale);
+    if (all_in_range(positions, range.largest) && all_have_extent(positions, triangles, range))
+        return {};
     std::vector<uint32_t> kept(triangles.begin(), triangles.end());
     bool all = true;
     for (size_t i = 0; i + 2 < kept.size(); i += 3) {
         uint32_t* corner = &kept[i];
-        if (is_traceable(positions[corner[0]], positions[corner[1]], positions[corner[2]]))
+        if (is_traceable(positions[corner[0]], positions[corner[1]], positions[corner[2]], range))
             continue;
         std::fill_n(corner, 3, kNone);
         all = false;
@@ -113,9 +128,9 @@ bool has_extent(vec3 low, vec3 high) {
 bool surely_has_extent(const Placement& placement, vec3 low, vec3 high) {
     constexpr double kRoundings = 16 * 0x1p-24;  // more than a product with a matrix has
     for (int r = 0; r < 3; ++r) {
-        double extent = 0, size = std::abs(double(placement.m[9 + r]));
+        double extent = 0, size = std::abs(double(placement.traced[9 + r]));
         for (int c = 0; c < 3; ++c) {
-            const double m = std::abs(double(placement.m[3 * c + r]));
+            const double m = std::abs(double(placement.traced[3 * c + r]));
             extent += m * (double(high[c]) - double(low[c]));
             size += m * std::max(std::abs(double(low[c])), std::abs(double(high[c])));
         }

@@ -11,21 +11,21 @@
 namespace kinora::raytrace {
 
 // True if the corners are finite, not too large for Embree, and do not all lie in one point. What
-// this leaves out is never hit.
-bool is_traceable(const vec4& a, const vec4& b, const vec4& c);
+// this leaves out is never hit. Embree sees the vertices times `scale` (scale_p.h).
+bool is_traceable(const vec4& a, const vec4& b, const vec4& c, float scale);
 
 // The triangles, with kNone for the corners of those that are not traceable: Embree skips a
 // triangle whose corners it does not have, and the others keep their numbers. Empty if all are
 // traceable, nearly always so: nothing is allocated then.
 std::vector<uint32_t> without_untraceable(std::span<const vec4> positions,
-                                          std::span<const uint32_t> triangles);
+                                          std::span<const uint32_t> triangles, float scale);
 // Whether one is left of what without_untraceable() returned.
 bool any_traceable(std::span<const uint32_t> triangles);
 
 // Whether a box has one; not if low is above high.
 bool has_extent(vec3 low, vec3 high);
-// False where float rounding may make a point of the placed box: the instance is then far smaller
-// than the step between floats at its place.
+// The box is of Embree's space of the mesh. False where float rounding may make a point of it as
+// placed: the instance is then far smaller than the step between floats at its place.
 bool surely_has_extent(const Placement& placement, vec3 low, vec3 high);
 
 }  // namespace kinora::raytrace

@@ -18,10 +18,10 @@ void Updater::start_background() {
         if (g.kind != GeometryKind::Deforming || !row.attached) continue;
         auto& copy = build.copies.emplace_back();
         copy.row = i;
-        copy.area = box_areas(g.positions, g.triangles, s.partial).sum;
+        copy.area = box_areas(g.positions, g.triangles, largest_vertex(g), s.partial).sum;
         copy.positions.assign(g.positions.begin(), g.positions.end());
         copy.mesh = EmbreeMesh(copy.positions, row.triangles(), BuildQuality::Refit, mask_of(g),
-                               filtered(g));
+                               filtered(g), s.scale);
         build.scene.attach(copy.mesh, row.slot);
     }
     build.thread = std::thread([&build] {

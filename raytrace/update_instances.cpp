@@ -10,16 +10,18 @@ void Updater::build_shape(InstancedShape& shape, bool dynamic) {
     const GeometryState& row = s.rows[shape.first_row];
     const Geometry& g = row.seen;
     shape.dynamic = dynamic;
+    shape.scale = local_scale(s.size, size_of(g.positions));
     shape.scene = EmbreeScene(dynamic, s.policy.robust);
     if (!row.sound) return commit_shape(shape);  // empty
     watch(g);
-    shape.kept = without_untraceable(g.positions, g.triangles);
+    shape.kept = without_untraceable(g.positions, g.triangles, shape.scale);
     bool refit = dynamic && !s.policy.always_rebuild;
     // Rows of one shape may differ in mask and sides, so the instance carries the mask, and the
     // filter is there if any row might need it.
     bool filter = s.policy.fixed_winner || s.any_hidden_backfaces;
-    shape.mesh = EmbreeMesh(g.positions, g.triangles,
-                            refit ? BuildQuality::Refit : BuildQuality::Medium, kMaskAll, filter);
+    shape.mesh =
+        EmbreeMesh(g.positions, g.triangles, refit ? BuildQuality::Refit : BuildQuality::Medium,
+                   kMaskAll, filter, shape.scale);
     shape.scene.attach(shape.mesh, 0);
     commit_shape(shape);
     ++s.report.rebuilds;
@@ -62,7 +64,7 @@ bool Updater::update_shape(uint32_t index, const Geometry& now) {
     if (same && !row.sound) return false;
     // Embree leaves bad triangles out of a tree for good.
     if (!same || !shape.dynamic ||
-        shape.kept != without_untraceable(now.positions, now.triangles)) {
+        shape.kept != without_untraceable(now.positions, now.triangles, shape.scale)) {
         build_shape(shape, same);
         // Instances hold on to the scene they were made of.
         for (GeometryState& r : s.rows)
@@ -82,14 +84,15 @@ void Updater::leave_out(GeometryState& row) {
 
 // Returns whether the instance is traceable where its matrix puts it.
 bool Updater::place(GeometryState& row) {
-    if (!make_placement(row.seen.accel_from_local, row.placement)) {
+    if (!make_placement(row.seen.accel_from_local, s.scale, s.shapes[row.shape].scale,
+                        row.placement)) {
         note(GeometryIssue::SingularMatrix, row.seen.id, 1);
         return false;
     }
     const InstancedShape& shape = s.shapes[row.shape];
     if (!has_extent(shape.low, shape.high)) return false;
     if (!row.attached) row.instance = EmbreeInstance(shape.scene, mask_of(row.seen));
-    row.instance.set_matrix(row.placement.m);
+    row.instance.set_matrix(row.placement.traced);
     return surely_has_extent(row.placement, shape.low, shape.high) || row.instance.has_extent();
 }
 

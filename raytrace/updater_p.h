@@ -42,6 +42,7 @@ class Updater {
     bool sound(const Geometry& g);
     void note(GeometryIssue issue, uint32_t id, uint32_t count);
     BoxAreas watch(const Geometry& g);
+    float largest_vertex(const Geometry& g) const;
 
     bool find_traceable(GeometryState& row);
     bool update_deforming(uint32_t row, const Geometry& now);

@@ -195,5 +195,114 @@ TEST(ExtremeMesh, RaysFromAfarAtSmallInstancesDoNotAbort) {
     }
 }
 
+// ---- sizes at which the products of three lengths are no floats
+
+// The mesh at `size`, all of it in its vertices or in the matrix, as one row.
+struct SizedRow {
+    TestMesh mesh = sphere(1, {0, 0, 0}, 256, 128);  // small triangles
+    std::vector<Geometry> rows;
+    SizedRow(GeometryKind kind, float size, bool by_matrix) {
+        for (vec4& p : mesh.positions) p *= by_matrix ? 1 : size;
+        rows = {mesh.geometry(5, kind)};
+        for (int c = 0; c < 3 && by_matrix; ++c) rows[0].accel_from_local[c] *= double(size);
+    }
+    Accel traced() const {
+        Accel accel({.background = false});
+        EXPECT_TRUE(accel.update(rows).issues.empty());
+        return accel;
+    }
+};
+
+// Sizes are powers of two, so that nothing rounds and hits are the same bits.
+void expect_hits_of_size_one(const Accel& accel, const Accel& home, float size) {
+    RandomRays random(7);
+    for (int i = 0; i < 300; ++i) {
+        vec3 org, dir;
+        random.next(4, dvec3(0.0), org, dir);
+        const OneHit a = shoot(home, org, dir), b = shoot(accel, org * size, dir);
+        ASSERT_EQ(a.hit, b.hit) << size;
+        if (!a.hit) continue;
+        EXPECT_EQ(a.primitive, b.primitive);
+        EXPECT_EQ(a.u, b.u);
+        EXPECT_EQ(a.t * size, b.t);
+        const SurfacePoint p = home.surface_point(0, a.primitive, a.u, a.v),
+                           q = accel.surface_point(0, b.primitive, b.u, b.v);
+        EXPECT_EQ(p.p * size, q.p);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(p.Ng[k], q.Ng[k], 1e-6);
+        // A ray to a point is as long as the way, and ends before the ball or behind its skin.
+        const vec3 way = 1.5f * b.t * dir;
+        EXPECT_TRUE(shoot(accel, org * size, way, 0, 1).hit);
+        EXPECT_FALSE(shoot(accel, org * size, 0.6f * way, 0, 1).hit);
+    }
+}
+
+TEST(ExtremeMesh, SizesOfAnyPowerAreTracedAsSizeOne) {
+    for (GeometryKind kind : kKinds)
+        for (bool by_matrix : {false, true}) {
+            if (by_matrix && kind != GeometryKind::Instanced) continue;
+            SizedRow one(kind, 1, by_matrix);
+            const Accel home = one.traced();
+            for (float size : {0x1p-50f, 0x1p-40f, 0x1p-30f, 0x1p-10f, 0x1p20f, 0x1p40f, 0x1p50f}) {
+                SizedRow row(kind, size, by_matrix);
+                expect_hits_of_size_one(row.traced(), home, size);
+            }
+        }
+}
+
+// A refit, a rebuild at once and one in the background have the scale of the first build.
+TEST(ExtremeMesh, SmallMeshesThatMoveStayTraced) {
+    constexpr float kSize = 0x1p-45f;
+    for (bool background : {false, true}) {
+        SizedRow row(GeometryKind::Deforming, kSize, false);
+        Accel accel({.background = background});
+        accel.update(row.rows);
+        for (float stretch : {1.1f, 2.0f, 5.0f}) {
+            for (vec4& p : row.mesh.positions) p.z *= stretch;
+            for (int again = 0; again < 3; ++again) {
+                ++row.rows[0].positions_version;
+                accel.update(row.rows);
+                accel.wait_for_background();
+            }
+            EXPECT_TRUE(shoot(accel, {0.1f * kSize, 0, 50 * kSize}, {0, 0, -1}).hit) << stretch;
+        }
+    }
+}
+
+// Of a part far off from the rest only that part is large.
+TEST(ExtremeMesh, OneVertexFarOffDoesNotMakeTheRestVanish) {
+    for (GeometryKind kind : {GeometryKind::Static, GeometryKind::Instanced}) {
+        TestMesh ball = sphere(1, {0, 0, 0});
+        ball.positions.push_back({1e15f, 0, 0, 0});
+        const uint32_t last = uint32_t(ball.positions.size() - 1);
+        for (uint32_t k : {0u, 1u, last}) ball.triangles.push_back(k);
+        std::vector<Geometry> rows{ball.geometry(5, kind)};
+        Accel accel;
+        accel.update(rows);
+        EXPECT_LT(shoot(accel, {0.1f, 0.1f, -5}, {0, 0, 1}).primitive,
+                  ball.triangles.size() / 3 - 1);
+    }
+}
+
+// What is hidden by a scale of nearly 0 when rays are first traced is seen once it has grown.
+TEST(ExtremeMesh, WhatBeginsAlmostAsAPointIsSeenWhenItHasGrown) {
+    for (GeometryKind kind : {GeometryKind::Deforming, GeometryKind::Instanced})
+        for (double small : {1e-30, 1e-12, 1e-6, 1e-4}) {
+            SizedRow row(kind, 1, false);
+            const std::vector<vec4> grown = row.mesh.positions;
+            Geometry& geometry = row.rows[0];
+            if (kind == GeometryKind::Instanced)
+                for (int c = 0; c < 3; ++c) geometry.accel_from_local[c] *= small;
+            else
+                for (vec4& p : row.mesh.positions) p *= float(small);
+            Accel accel({.background = false});
+            accel.update(row.rows);
+            row.mesh.positions = grown;
+            geometry.accel_from_local = dmat4(1.0);
+            geometry.positions_version += kind == GeometryKind::Deforming;
+            EXPECT_TRUE(accel.update(row.rows).issues.empty()) << small;
+            EXPECT_TRUE(shoot(accel, {0.1f, 0.1f, 5}, {0, 0, -1}).hit) << small;
+        }
+}
+
 }  // namespace
 }  // namespace kinora::raytrace::test
