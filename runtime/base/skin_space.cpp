@@ -27,6 +27,25 @@ bool is_near(const dmat4& a, const dmat4& b, double tolerance) {
 constexpr double kWritten = 1e-3;  // numbers of files have few digits
 constexpr double kNothing = 1e-5;  // and matrices that are the identity were multiplied as floats
 
+// What a matrix does below `shared`: what moves and scales node and joints alike is left out.
+dmat4 below(const dmat4& shared, const dmat4& m) {
+    return glm::determinant(dmat3(shared)) == 0 ? m : glm::inverse(shared) * m;
+}
+
+// Whether the joints move the mesh to the node.
+bool binds_at_node(const SkinPose& pose) {
+    const dmat4 node = below(pose.shared, pose.node);
+    return std::ranges::all_of(pose.joints, [&](const RestJoint& j) {
+        return is_near(below(pose.shared, j.world * j.inverse_bind), node, kWritten);
+    });
+}
+
+bool binds_nowhere(const SkinPose& pose) {
+    return std::ranges::all_of(pose.joints, [&](const RestJoint& j) {
+        return is_near(j.world * j.inverse_bind, dmat4(1.0), kWritten);
+    });
+}
+
 // What no pose of the bind tells: is what moves node and joints in the joints' results? Turns and
 // scales show it better than positions, which poses move more.
 SkinSpace guess(const SkinPose& pose) {
@@ -38,7 +57,8 @@ SkinSpace guess(const SkinPose& pose) {
         without += apart(j.world * j.inverse_bind, identity, turns ? 3 : 4);
     }
     if (!(with < without)) return SkinSpace::Node;
-    return is_near(pose.node, pose.shared, kNothing) ? SkinSpace::World : SkinSpace::NodeBelow;
+    const bool apart_from_shared = !is_near(below(pose.shared, pose.node), identity, kNothing);
+    return apart_from_shared ? SkinSpace::NodeBelow : SkinSpace::World;
 }
 
 }  // namespace
@@ -47,15 +67,10 @@ SkinPlacement skin_placement(const dmat4& bind_shape, const SkinPose& rest, cons
     const dmat4 identity(1.0);
     bool still = is_near(rest.node, identity, kNothing) && is_near(start.node, identity, kNothing);
     if (!is_near(bind_shape, identity, kNothing) || still) return {};
-    auto all_near = [&](const SkinPose& pose, const dmat4& wanted) {
-        return !pose.joints.empty() &&
-               std::all_of(pose.joints.begin(), pose.joints.end(), [&](const RestJoint& j) {
-                   return is_near(j.world * j.inverse_bind, wanted, kWritten);
-               });
-    };
     for (const SkinPose* pose : {&rest, &start}) {
-        if (all_near(*pose, pose->node)) return {};
-        if (all_near(*pose, identity)) return {SkinSpace::BindsNode, pose->node};
+        if (pose->joints.empty()) continue;
+        if (binds_at_node(*pose)) return {};
+        if (binds_nowhere(*pose)) return {SkinSpace::BindsNode, pose->node};
     }
     return {guess(is_near(rest.node, identity, kNothing) ? start : rest), {}};
 }

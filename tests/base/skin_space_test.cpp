@@ -70,6 +70,37 @@ TEST(SkinSpace, TheFirstKeysTellWhereTheRestOfTheFileIsNoPoseOfTheBind) {
     EXPECT_EQ(place.bind, last);
 }
 
+// What the first joint does to the mesh, as the scene is built.
+dmat4 whole(const SkinPlacement& place, const SkinPose& p) {
+    const dmat4 moves = p.joints[0].world * p.joints[0].inverse_bind;
+    if (place.space == SkinSpace::BindsNode) return moves * place.bind;
+    if (place.space == SkinSpace::Node) return p.node * moves;
+    if (place.space == SkinSpace::NodeBelow) return p.node * glm::inverse(p.shared) * moves;
+    return moves;
+}
+
+// A node above mesh and joints moves and scales the result, and nothing else.
+TEST(SkinSpace, ANodeAboveAllOfItIsNotTakenForAnAnswer) {
+    const dmat4 node = moved(1, 0, 0.5);
+    const SkinPose home[] = {pose(node, node, kIdentity),                  // brought to the node
+                             pose(node, kIdentity, kIdentity),             // nowhere
+                             pose(node, moved(4, 0, 8), moved(0, 0, 4))};  // no pose of the bind
+    for (const SkinPose& p : home)
+        for (double scale : {1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e9})
+            for (double far : {0.0, 1e9}) {
+                dmat4 above = moved(far, -far, far);
+                for (int c = 0; c < 3; ++c) above[c] *= scale;
+                SkinPose wrapped{above * p.node, above, p.joints};
+                for (RestJoint& j : wrapped.joints) j.world = above * j.world;
+                const dmat4 want = above * whole(skin_placement(kIdentity, p, p), p),
+                            got = whole(skin_placement(kIdentity, wrapped, wrapped), wrapped);
+                for (int c = 0; c < 4; ++c)
+                    for (int r = 0; r < 3; ++r)
+                        EXPECT_NEAR(got[c][r], want[c][r], 1e-9 * scale + 1e-6 * (far > 0))
+                            << scale << " " << far;
+            }
+}
+
 TEST(SkinSpace, CountsJointsThatTurnInsideOut) {
     dmat4 mirror(1.0);
     mirror[0][0] = -1;
