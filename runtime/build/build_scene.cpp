@@ -43,6 +43,14 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
     return scene;
 }
 
+// Fast kernels square areas as floats and flush denormals: beyond these sizes normals would vanish,
+// and kernels are precise.
+void suit_math(Scene& scene) {
+    constexpr double kLeast = 1e-6, kMost = 1e8;  // docs/numerics.md#two-tiers
+    if (!(scene.size >= kLeast && scene.size <= kMost))
+        scene.options.math = jit::math::Tier::Precise;
+}
+
 // What fills a picture without surfaces.
 bool has_picture_shaders(const SceneDescription& description) {
     auto any = [](const PictureShaders& picture) {
@@ -88,6 +96,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     std::vector<SurfaceUse> uses = add_shapes(scene, skins, diagnostics);
     if (!something_to_draw(scene, diagnostics)) return nullptr;
     set_bounds(scene);
+    suit_math(scene);
 
     add_cameras(scene, tree);
     if (!choose_camera(scene, tree, diagnostics)) return nullptr;
