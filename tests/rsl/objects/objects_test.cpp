@@ -102,23 +102,25 @@ TEST(ResizableArrays, AreChangedThroughOutputParameters) {
     for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], n > 9 ? 52 : 21) << n;
 }
 
-// Room is for 4096 elements where nothing shares it, or what a number asks for; beyond, nothing is
-// stored.
+// Sixteen arrays of matrices leave room for 127 elements of each; a number may ask for more. Beyond
+// the room nothing is stored.
 TEST(ResizableArrays, AreBoundedWithAFault) {
     bool faults = false;
-    auto fill = [](const char* reserve) {
-        return std::string("surface t() { float a[], k; ") + reserve +
-               " for (k = 0; k < 4090 + s; k += 1) push(a, k);"
-               " Ci = arraylength(a) + 1e-4 * a[arraylength(a) - 1]; }";
+    std::string others = "float n = 1;";
+    for (int k = 0; k < 16; ++k) others += fmt::format(" matrix m{0}[]; resize(m{0}, n);", k);
+    auto fill = [&](const char* reserve) {
+        return "surface t() { float a[], k; " + others + reserve +
+               " for (k = 0; k < 120 + s; k += 1) push(a, k);"
+               " Ci = arraylength(a) + 1000 * a[arraylength(a) - 1]; }";
     };
-    auto length = [](int n) { return float(n) + 1e-4f * float(n - 1); };
+    auto length = [](int n) { return float(n + 1000 * (n - 1)); };
     auto got = values_of(fill(""), "Ci.r", &faults);
     EXPECT_TRUE(faults);
     for (int n = 0; n < kObjectPoints; ++n)
-        EXPECT_EQ(got[size_t(n)], length(std::min(4090 + n, 4096))) << n;
-    got = values_of(fill("reserve(a, 5000);"), "Ci.r", &faults);
+        EXPECT_EQ(got[size_t(n)], length(std::min(120 + n, 127))) << n;
+    got = values_of(fill("reserve(a, 500);"), "Ci.r", &faults);
     EXPECT_FALSE(faults);
-    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], length(4090 + n)) << n;
+    for (int n = 0; n < kObjectPoints; ++n) EXPECT_EQ(got[size_t(n)], length(120 + n)) << n;
     got = values_of("surface t() { float n = s * 5, a[n]; reserve(a, 9); Ci = arraylength(a); }",
                     "Ci.r", &faults);
     EXPECT_FALSE(faults);
