@@ -176,7 +176,7 @@ class Words(FindingsTest):
                 ("kinora-convert", scene, self.folder / "o.glb"),
                 ("kinora-play", scene, "--headless", "--size", "8x8", "--screenshot", shot))
         for words in runs:
-            result = self.expect(run(*words), 0, "more of LINK_UNRESOLVED; -v shows all")
+            result = self.expect(run(*words), 0, "more of LINK_UNRESOLVED", "; -v shows all")
             shown = self.lines(result, "LINK_UNRESOLVED")
             self.assertGreaterEqual(shown, 2)
             self.assertIn(f"{1000 - shown} more of LINK_UNRESOLVED", result.err)
