@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -118,6 +119,33 @@ std::string ColladaExporter::inner_file(const std::string& name) const {
     return {};
 }
 
+namespace {
+
+// By TextureMip, and whether the texels are read unfiltered.
+constexpr const char* kMinFilters[][2] = {{"LINEAR_MIPMAP_LINEAR", "NEAREST_MIPMAP_LINEAR"},
+                                          {"LINEAR_MIPMAP_NEAREST", "NEAREST_MIPMAP_NEAREST"},
+                                          {"LINEAR", "NEAREST"}};
+
+const char* min_filter(const TextureName& look) {
+    TextureMip mip = look.nearest ? TextureMip::None : look.mip;
+    return kMinFilters[size_t(mip)][look.nearest || look.nearest_minified];
+}
+
+// What a <sampler2D> says behind its <source>, in the order of the schema.
+std::string sampler_state(const TextureName& look) {
+    std::string state =
+        xml("wrap_s", "", kWraps[size_t(look.wrap_s)]) +
+        xml("wrap_t", "", kWraps[size_t(look.wrap_t)]) + xml("minfilter", "", min_filter(look)) +
+        xml("magfilter", "", look.nearest || look.nearest_magnified ? "NEAREST" : "LINEAR");
+    if (look.border != TextureName().border)
+        state += xml("border_color", "", number_text(look.border));
+    if (look.mip_max_level) state += xml("mipmap_maxlevel", "", std::to_string(look.mip_max_level));
+    if (look.mip_bias != 0) state += xml("mipmap_bias", "", number_text(std::array{look.mip_bias}));
+    return state;
+}
+
+}  // namespace
+
 // <texture>, and in `params` its sampler. `extra` goes into its extra.
 std::string ColladaExporter::texture(const ParamSource& map, const std::string& sid,
                                      const std::string& extra, std::string& params) {
@@ -125,20 +153,20 @@ std::string ColladaExporter::texture(const ParamSource& map, const std::string& 
     params += fmt::format(
         "<newparam sid=\"{0}-surface\"><surface type=\"2D\"><init_from>{1}</init_from>"
         "</surface></newparam><newparam sid=\"{0}-sampler\"><sampler2D><source>{0}-surface"
-        "</source><wrap_s>{2}</wrap_s><wrap_t>{3}</wrap_t><minfilter>{4}</minfilter>"
-        "<magfilter>{4}</magfilter></sampler2D></newparam>",
-        sid, image(map.strings[0]), kWraps[size_t(look.wrap_s)], kWraps[size_t(look.wrap_t)],
-        look.nearest ? "NEAREST" : "LINEAR");
-    std::string placed = extra;
+        "</source>{2}</sampler2D></newparam>",
+        sid, image(map.strings[0]), sampler_state(look));
+    std::string placed, more = extra;
     if (look.uv != TextureName().uv)
         placed += fmt::format(
-            "<technique profile=\"MAYA\"><repeatU>{}</repeatU><repeatV>{}</repeatV><offsetU>{}"
-            "</offsetU><offsetV>{}</offsetV></technique>",
+            "<repeatU>{}</repeatU><repeatV>{}</repeatV><offsetU>{}</offsetU><offsetV>{}</offsetV>",
             look.uv[0], look.uv[1], look.uv[2], look.uv[3]);
-    if (look.turn != TextureName().turn) lost(fmt::format("texture '{}'", sid), "how it is turned");
+    if (look.turn != TextureName().turn)
+        placed += fmt::format("<rotateUV>{}</rotateUV>",
+                              float(std::atan2(look.turn[1], look.turn[0]) * 180 / kPi));
+    if (!placed.empty()) more += xml("technique", attribute("profile", "MAYA"), placed);
     std::string name = map.texcoord.empty() ? "TEXCOORD0" : map.texcoord;
     return xml("texture", attribute("texture", sid + "-sampler") + attribute("texcoord", name),
-               placed.empty() ? "" : xml("extra", "", placed));
+               more.empty() ? "" : xml("extra", "", more));
 }
 
 // The map of normals or heights of a COLLADA model, as the extra that exporters write.

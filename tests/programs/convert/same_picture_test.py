@@ -194,6 +194,26 @@ class TextureCoordinates(SamePicture):
         self.both_ways(second)
 
 
+class Samplers(SamePicture):
+    def test_filters_and_wraps_of_textures_stay_in_dae(self):
+        """OpenGL's numbers of glTF 2.0 (sampler.minFilter) and COLLADA 1.4.1's words for them."""
+        words = {9728: "NEAREST", 9729: "LINEAR", 9984: "NEAREST_MIPMAP_NEAREST", 9985: "LINEAR_MIPMAP_NEAREST",
+                 9986: "NEAREST_MIPMAP_LINEAR", 9987: "LINEAR_MIPMAP_LINEAR", None: "LINEAR_MIPMAP_LINEAR"}
+        self.image("fine.png", [((x * 37) % 256, (x * 91) % 256, x % 256) for x in range(64 * 64)])
+        for number, word in words.items():
+            with self.subTest(word):
+                gltf = Gltf(pbrMetallicRoughness={"metallicFactor": 0, "baseColorTexture": {"index": 0}})
+                gltf.attributes["TEXCOORD_0"] = gltf.floats("VEC2", [0, 0, 3, 0, 1, 3])
+                gltf.tree["images"] = [{"uri": "fine.png"}]
+                gltf.tree["samplers"] = [{"magFilter": 9728, "wrapS": 33648, **({"minFilter": number} if number else {})}]
+                gltf.tree["textures"] = [{"source": 0, "sampler": 0}]
+                scene = self.save(f"s{number}", gltf)
+                dae = self.converted(scene, f"s{number}.dae")
+                for text in (f"<minfilter>{word}</minfilter>", "<magfilter>NEAREST</magfilter>", "<wrap_s>MIRROR</wrap_s>"):
+                    self.assertIn(text, dae.read_text())
+                self.assertLess(self.difference(self.picture(scene), self.picture(dae)), LIKE)
+
+
 class Clips(SamePicture):
     IDLE = animation("ia", "a/t", "0 1", "0 0 0 0 1 0")
     RUN = animation("ra", "a/t", "0 1", "0 0 0 3 0 0") + animation("rb", "a/r.ANGLE", "0 1", "0 90", ["ANGLE"])
