@@ -141,13 +141,14 @@ TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
     GltfText draco = whole_scene();
     draco.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     refused(draco.glb(), ".glb", "GLTF_EXTENSION_REQUIRED", "KHR_draco_mesh_compression");
-    GltfText packed = whole_scene();  // as gltfpack writes it: a buffer that is made by unpacking
-    packed.json["buffers"].push_back(
-        {{"byteLength", 64}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
-    refused(packed.glb(), ".glb", "GLTF_INVALID", "EXT_meshopt_compression");
-    packed.json["extensionsRequired"] = {"EXT_meshopt_compression"};
-    refused(packed.glb(), ".glb", "GLTF_EXTENSION_REQUIRED", "EXT_meshopt_compression");
-    EXPECT_EQ(described(packed.glb())->count("GLTF_INVALID"), 0);
+    json packed = whole_scene().json;  // as gltfpack writes it: a buffer that is made by unpacking
+    packed["buffers"] = {
+        {{"byteLength", 3}, {"uri", "data:application/octet-stream;base64,AAAA"}},
+        {{"byteLength", 64}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}}};
+    refused(packed.dump(), ".gltf", "GLTF_INVALID", "buffer 1 has no uri: EXT_meshopt_compression");
+    packed["extensionsRequired"] = {"EXT_meshopt_compression"};
+    refused(packed.dump(), ".gltf", "GLTF_EXTENSION_REQUIRED", "EXT_meshopt_compression");
+    EXPECT_EQ(described(packed.dump(), ".gltf")->count("GLTF_INVALID"), 0);
     const char* pointer =
         "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 335626\n";
     refused(pointer, ".glb", "GLTF_INVALID", "Git LFS pointer");
