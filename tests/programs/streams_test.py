@@ -21,14 +21,14 @@ class Streams(ProgramTest):
         yield "kinora-render", MATTE, "--explain"
         yield "kinora-render", MATTE, "--dump", "ir,asm"
         yield "kinora-render", MATTE, "-o", out, *SMALL, "--stats=json", "-q"
-        yield "kinora-render", MATTE, "-o", out, *SMALL, "--size", "160x120", "--shader", f"*={noisy}", "-q"
+        yield "kinora-render", MATTE, "-o", out, "--size", "160x120", "--spp", "1", "--shader", f"*={noisy}", "-q"
         yield "kinora-shade", "info", plastic
         yield "kinora-shade", "dump", plastic
         yield "kinora-shade", "manual"
         yield "kinora-validate", "--print-schema", "1.5"
         yield "kinora-validate", "--explain", "all"
         yield "kinora-validate", "-v", "--format", "json", *many
-        yield "kinora-validate", "--fix", *many
+        yield "kinora-validate", "--fix", "--diff", *many
         yield "kinora-convert", MATTE, self.folder / "a.glb", "--stats"
         script = self.write("script.txt", "seek 1\n" * 9)
         yield "kinora-play", MATTE, "--headless", "--script", script, *SMALL
