@@ -676,7 +676,7 @@ class Batches(ProgramTest):
                                    stderr=subprocess.PIPE)
         program.stdout.read(10)
         program.stdout.close()
-        self.assertEqual(program.wait(timeout=60), 6)
+        self.assertEqual(program.wait(timeout=60), validate(files[0]).code)  # that of what was reported
         self.assertEqual(program.stderr.read(), b"")
         program.stderr.close()
 
