@@ -96,7 +96,8 @@ void add_texcoords(MeshReader& mesh, Location where, Inputs& inputs) {
     std::vector<VertexInput> meant;
     for (const VertexInput& input : inputs.inputs) {
         if (input.semantic == "TEXCOORD") return;
-        if (meant.size() < kMostTexcoords && names_texcoords(input.semantic)) meant.push_back(input);
+        if (meant.size() < kMostTexcoords && names_texcoords(input.semantic))
+            meant.push_back(input);
     }
     for (uint32_t set = 0; set < meant.size(); ++set) {
         mesh.x.diag.report(Code::PRIM_TEXCOORD_NAME, where, meant[set].semantic, set);

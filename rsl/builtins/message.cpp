@@ -247,8 +247,7 @@ void seenopacity(LowerCall& c) {
     float threshold = c.context.options.opacity_threshold;
     Value seen = b.m(false);
     for (Value channel : c.v3(0)) {
-        Value hidden =
-            threshold > 0 ? b.le(channel, b.f(threshold)) : b.eq(channel, b.f(0));
+        Value hidden = threshold > 0 ? b.le(channel, b.f(threshold)) : b.eq(channel, b.f(0));
         seen = b.logical_or(seen, b.logical_not(hidden));
     }
     c.set(c.e.flag(seen));
@@ -524,7 +523,8 @@ const Builtin kRows[] = {
      KINORA_RSL_REF(ref::displacement_message), kMessage | kVaryingResult | kForHeaders, 0,
      "displacement(): what a class's displacement left for its surface."},
     {"displaced", "f=", lower::displaced, KINORA_RSL_REF(ref::displaced), kMessage | kForHeaders, 0,
-     "1 where a class's displacement() has moved the vertices, 2 where it moves P, 0 where it bends "
+     "1 where a class's displacement() has moved the vertices, 2 where it moves P, 0 where it "
+     "bends "
      "N."},
     {"seenopacity", "f=c", lower::seenopacity, KINORA_RSL_REF(ref::seenopacity), kForHeaders, 0,
      "1 where a class's opacity() leaves anything above the threshold."},

@@ -58,7 +58,7 @@ TEST(TrueDisplacement, RunsOnceUnlessItReadsWhatChanges) {
         if (row.moving_node) scene.animate("floor-node/move.X", {0, 1}, {0, 0.1});
         Rendering r(scene.text(), dice_of(8));
         ASSERT_TRUE(r.scene) << r.findings();
-        const Shape& shape = r.pose->shapes[0];
+        const Shape& shape = r.scene->shapes[0];
         EXPECT_EQ(shape.vertex_work != nullptr, row.each_frame);
         auto still =
             row.moving_node ? raytrace::GeometryKind::Instanced : raytrace::GeometryKind::Static;
@@ -106,7 +106,7 @@ TEST(TrueDisplacement, AnimatedParametersRunItAtEachFrame) {
     scene.place("floor", "look").animate("look-fx/h", {0, 1}, {0, 1});
     Rendering r(scene.text(), dice_of(8));
     ASSERT_TRUE(r.scene) << r.findings();
-    ASSERT_TRUE(r.pose->shapes[0].vertex_work);
+    ASSERT_TRUE(r.scene->shapes[0].vertex_work);
     for (double time : {0.75, 0.0, 0.5}) {
         r.frame(time);
         for (dvec3 p : world_positions(r)) EXPECT_NEAR(p.z, time, 1e-6);
@@ -182,7 +182,7 @@ TEST(TrueDisplacement, GivesTheSameBytesOnAnyThreadsAndTargets) {
             options.target = &target;
             Rendering r(text, options);
             r.frame(0.25);
-            const Shape& shape = r.pose->shapes[0];
+            const ShapePose& shape = r.pose->shapes[0];
             if (first.empty()) {
                 first = shape.positions;
                 first_normals = shape.normals;

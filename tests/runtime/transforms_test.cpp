@@ -123,7 +123,7 @@ TEST(Transforms, OperationsApplyLastFirst) {
                 "<translate>1 0 0</translate><rotate>0 0 1 90</rotate><scale>2 2 2</scale>");
     Rendering r(scene.text());
     ASSERT_TRUE(r.scene) << r.findings();
-    const Node& node = r.scene->nodes[r.scene->shapes[0].node];
+    const NodePose& node = r.scene->start.nodes[r.scene->shapes[0].node];
     expect_near(apply(node.world, {1, 0, 0}), {1, 2, 0});
 }
 
@@ -136,8 +136,9 @@ TEST(Transforms, ChildrenFollowTheirParentsAlsoWhenThoseMove) {
     scene.place("s", "l").animate("a/r.ANGLE", {0, 1}, {0, 720});
     Rendering r(scene.text());
     auto leaf = [&] {
-        for (const Node& n : r.scene->nodes)
-            if (r.scene->description->nodes[n.definition].id == "leaf") return n.world;
+        for (size_t n = 0; n < r.scene->nodes.size(); ++n)
+            if (r.scene->description->nodes[r.scene->nodes[n].definition].id == "leaf")
+                return r.pose->nodes[n].world;
         return dmat4(0.0);
     };
     r.frame(0);

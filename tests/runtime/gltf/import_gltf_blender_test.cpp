@@ -15,8 +15,7 @@ namespace {
 const std::string kFolder = project_folder() + "/assets/gltf/";
 
 // World positions of the shape on the node with that name, whatever kind it is.
-std::vector<dvec3> positions_of(const Scene& scene, const Pose& pose,
-                                std::string_view node) {
+std::vector<dvec3> positions_of(const Scene& scene, const Pose& pose, std::string_view node) {
     std::vector<dvec3> positions;
     for (size_t s = 0; s < scene.shapes.size(); ++s) {
         const Shape& shape = scene.shapes[s];
@@ -24,9 +23,9 @@ std::vector<dvec3> positions_of(const Scene& scene, const Pose& pose,
         const Mesh& mesh = scene.meshes[shape.mesh];
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
         for (const vec4& p : pose.shapes[s].shown_positions)
-            positions.push_back(instanced ? dvec3(pose.nodes[shape.node].world *
-                                                  dvec4(dvec3(p) + mesh.anchor, 1.0))
-                                          : dvec3(p) + scene.origin);
+            positions.push_back(
+                instanced ? dvec3(pose.nodes[shape.node].world * dvec4(dvec3(p) + mesh.anchor, 1.0))
+                          : dvec3(p) + scene.origin);
     }
     return positions;
 }

@@ -201,6 +201,8 @@ TEST(GltfHostile, ABufferThatIsAPointerIsNamed) {
     auto d = described(whole.dump(), ".gltf");
     EXPECT_FALSE(d->scene);
     EXPECT_NE(d->findings().find("Git LFS pointer"), std::string::npos) << d->findings();
+}
+
 TEST(GltfHostile, RequiredExtensionsThatChangeNothingAreRead) {
     GltfText variants = whole_scene();
     variants.json["extensionsUsed"].push_back("KHR_materials_variants");
