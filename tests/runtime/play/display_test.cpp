@@ -146,8 +146,8 @@ TEST(Guide, RaysBesideEdgesSuffice) {
                              opened.diagnostics));
     PictureGuide small, whole, refined;
     take_guide(hits, opened.pose->view, small);
-    make_guide(*opened.scene, 320, 180, whole);
-    refine_guide(*opened.scene, small, 320, 180, refined);
+    make_guide(*opened.pose, 320, 180, whole);
+    refine_guide(*opened.pose, small, 320, 180, refined);
     size_t taken = 0, surfaces = 0;
     for (size_t k = 0; k < whole.surface.size(); ++k) {
         taken += refined.depth[k] != whole.depth[k];
