@@ -127,8 +127,7 @@ constexpr const char* kMinFilters[][2] = {{"LINEAR_MIPMAP_LINEAR", "NEAREST_MIPM
                                           {"LINEAR", "NEAREST"}};
 
 const char* min_filter(const TextureName& look) {
-    TextureMip mip = look.nearest ? TextureMip::None : look.mip;
-    return kMinFilters[size_t(mip)][look.nearest || look.nearest_minified];
+    return kMinFilters[size_t(look.mip)][look.nearest || look.nearest_minified];
 }
 
 // What a <sampler2D> says behind its <source>, in the order of the schema.
