@@ -19,6 +19,8 @@ bool has_normals(const PrimitiveGroup& group) {
                        [](const auto& a) { return a.semantic == "NORMAL" && a.stride >= 3; });
 }
 
+constexpr double kSamePlane = 1e-9;  // of cosines: within 0.003 degrees
+
 dvec3 unit_or_zero(dvec3 v) {
     double length = glm::length(v);
     return length > 0 && std::isfinite(length) ? v / length : dvec3(0.0);
@@ -66,7 +68,17 @@ class Fans {
             dvec3 m = face(positions, pair.a - pair.a % 3),
                   n = face(positions, pair.b - pair.b % 3);
             bool no_area = m == dvec3(0.0) || n == dvec3(0.0);
-            return !no_area && glm::dot(m, n) < least_cosine_ - 1e-9;
+            return !no_area && glm::dot(m, n) < least_cosine_ - kSamePlane;
+        });
+    }
+
+    // Whether faces of different planes meet at an edge that is no crease.
+    bool bends(const std::vector<dvec3>& positions) const {
+        return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+            dvec3 m = face(positions, pair.a - pair.a % 3),
+                  n = face(positions, pair.b - pair.b % 3);
+            bool no_area = m == dvec3(0.0) || n == dvec3(0.0);
+            return !no_area && glm::dot(m, n) < 1 - kSamePlane;
         });
     }
 
@@ -212,9 +224,7 @@ void smooth_targets(SceneDescription& description, const MeshDefinition& base, u
     }
 }
 
-}  // namespace
-
-void smooth_normals(SceneDescription& description, double degrees) {
+void add_normals(SceneDescription& description, double degrees, bool of_flat_meshes) {
     std::vector<std::set<uint32_t>> morphs(description.meshes.size());
     for (const NodeDefinition& node : description.nodes)
         for (const MeshUse& use : node.meshes)
@@ -225,6 +235,7 @@ void smooth_normals(SceneDescription& description, double degrees) {
         for (uint32_t morph : morphs[m])
             for (uint32_t target : description.morphs[morph].targets)
                 fans.crease(moved_by(description, description.meshes[m], morph, target));
+        if (!of_flat_meshes && !fans.bends(description.meshes[m].positions)) continue;
         fans.join();
         std::vector<VertexAttribute> normals =
             fans.normals(description.meshes[m], description.meshes[m].positions);
@@ -234,6 +245,16 @@ void smooth_normals(SceneDescription& description, double degrees) {
             description.meshes[m].groups[fans.groups()[k]].attributes.push_back(
                 std::move(normals[k]));
     }
+}
+
+}  // namespace
+
+void smooth_normals(SceneDescription& description, double degrees) {
+    add_normals(description, degrees, false);
+}
+
+void flat_normals(SceneDescription& description) {
+    add_normals(description, 0, true);
 }
 
 }  // namespace kinora

@@ -261,7 +261,24 @@ MeshDefinition cube_corner() {
 }
 
 TEST(Smooth, CreasesWhereFacesTurnByMoreThanTheAngle) {
-    MeshDefinition mesh = smoothed(cube_corner(), 60);
+    // Two faces that meet at 45 degrees beside one that stands at a right angle to the first.
+    MeshDefinition mesh =
+        smoothed(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, -1}},
+                         {0, 1, 2, 1, 0, 4, 0, 2, 3}),
+                 60);
+    expect_near(normal_at(mesh, 6), {1, 0, 0});
+    dvec3 joined = normal_at(mesh, 0);
+    EXPECT_GT(joined.z, 0.9);
+    EXPECT_LT(joined.y, -0.1);
+    expect_near(normal_at(mesh, 4), joined);
+}
+
+TEST(Smooth, AFlatMeshNeedsNoneUnlessTheyAreToBeWritten) {
+    EXPECT_TRUE(smoothed(cube_corner(), 60).groups[0].attributes.empty());
+    SceneDescription description;
+    description.meshes.push_back(cube_corner());
+    flat_normals(description);
+    const MeshDefinition& mesh = description.meshes[0];
     expect_near(normal_at(mesh, 0), {0, 0, -1});
     expect_near(normal_at(mesh, 3), {0, -1, 0});
     expect_near(normal_at(mesh, 6), {-1, 0, 0});
@@ -323,14 +340,16 @@ TEST(Smooth, MorphTargetsGetThoseOfTheirShape) {
     expect_near(normal_at(description.meshes[made], 2), glm::normalize(dvec3(0, -front, -below)));
 }
 
-// A flat sheet that a target folds has its crease from the start, so that the fold stays sharp.
+// A sheet bent by 20 degrees, whose other edge a target folds: that is a crease from the start.
 TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
     SceneDescription description;
+    const double c = std::cos(radians(20.0)), s = std::sin(radians(20.0));
     MeshDefinition sheet =
-        mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3});
+        mesh_of({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {1 + c, 0, s}, {-1, 0, 0}},
+                {0, 2, 1, 2, 3, 1, 2, 4, 3, 0, 1, 5});
     description.meshes.push_back(sheet);
-    for (dvec3& p : sheet.positions) p = {0, 0, p.x == 1 && p.y == 0 ? 1.0 : 0.0};
-    description.meshes.push_back(sheet);  // lifts one corner
+    for (dvec3& p : sheet.positions) p = {0, 0, p.x < 0 ? 1.0 : 0.0};
+    description.meshes.push_back(sheet);  // lifts the corner on the left
     MorphDefinition& morph = description.morphs.emplace_back();
     morph.relative = true;
     morph.targets = {1};
@@ -339,10 +358,10 @@ TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
     use.morph = 0;
     smooth_normals(description, 40);
     const MeshDefinition& target = description.meshes[description.morphs[0].targets[0]];
-    // (1, 0, 1) x (1, 1, 0) = (-1, 1, 1); relative to the normal at rest.
-    const double s = 1 / std::sqrt(3.0);
-    for (size_t corner : {0u, 1u, 2u}) expect_near(normal_at(target, corner), {-s, s, s - 1});
-    for (size_t corner : {3u, 4u, 5u}) expect_near(normal_at(target, corner), {0, 0, 0});
+    // At the fold the middle keeps its normal, and the left face turns by 45 degrees.
+    for (size_t corner : {0u, 2u}) expect_near(normal_at(target, corner), {0, 0, 0});
+    for (size_t corner : {9u, 10u, 11u})
+        expect_near(normal_at(target, corner), {kHalf, 0, kHalf - 1});
 }
 
 // ---- morphs on morphs and skins

@@ -72,7 +72,7 @@ class Conversion {
         ColladaExport document;
         std::string bytes;
         if (to_dae) {
-            smooth_normals(scene_, 0);  // what lacks normals is flat; in a .dae it would be creased
+            flat_normals(scene_);  // what lacks normals is flat; in a .dae it would be creased
             document = export_collada(scene_, options_.output, diag_);
         } else {
             bytes = export_glb(scene_, gltf_options(), diag_);
