@@ -54,12 +54,8 @@ struct Answer {
     Value known;
     Lowered value;
 };
-Answer answer_of(LowerCall& c, QueryKind kind, BaseType type, Value element, Value length,
-                 Value anchor) {
+Answer answer_of(LowerCall& c, BaseType type, std::span<const Value> row) {
     auto& b = c.b;
-    std::vector<Value> row = c.services.call(
-        Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0], b.i(type_letter(type)),
-                                   element, length, anchor});
     Answer answer{b.logical_not(b.op(jit::Op::IEq, row[0], b.i(0))), {type, {}}};
     for (size_t i = 0; i < size_t(answer.value.size()); ++i)
         answer.value.c[i] = type == BaseType::String ? b.bits(row[1 + i]) : row[1 + i];
@@ -78,8 +74,12 @@ void ask_list(LowerCall& c, QueryKind kind, int array, Value anchor) {
     Value known = b.logical_not(b.op(jit::Op::IEq, row[0], b.i(0)));
     Value before = arrays.count(array), length = b.ftoi(row[1]);
     Value running = std::exchange(c.e.running, b.logical_and(c.e.running, known));
-    arrays.fill(array, row[1], c.where(),
-                [&](Value k) { return answer_of(c, kind, type, k, length, anchor).value; });
+    arrays.fill(array, row[1], c.where(), [&](Value k) {
+        std::vector<Value> element =
+            c.services.call(Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0],
+                                                       b.i(type_letter(type)), k, length, anchor});
+        return answer_of(c, type, element).value;
+    });
     c.e.running = running;
     arrays.set_count(array, b.select(known, arrays.count(array), before));
     c.set(c.e.flag(known));
@@ -97,8 +97,11 @@ void ask(LowerCall& c, QueryKind kind, bool of_point) {
     std::vector<Lowered> values = variable.before;
     Value known = b.m(true);
     for (int k = 0; k < length; ++k) {
-        Answer answer =
-            answer_of(c, kind, variable.type.base, b.i(array ? k : -1), b.i(length), anchor);
+        std::vector<Value> row =
+            c.services.call(Service::query, std::array{b.i(int32_t(kind)), c.args[0].c[0],
+                                                       b.i(type_letter(variable.type.base)),
+                                                       b.i(array ? k : -1), b.i(length), anchor});
+        Answer answer = answer_of(c, variable.type.base, row);
         known = b.logical_and(known, answer.known);
         for (size_t i = 0; i < size_t(values[size_t(k)].size()); ++i)
             values[size_t(k)].c[i] = b.select(known, answer.value.c[i], values[size_t(k)].c[i]);

@@ -83,7 +83,7 @@ class HandleCalls {
     void add_function(std::string_view name, const Symbol& result, std::vector<Symbol*> formals,
                       const std::vector<Case>& cases, SourceSpan span, Stmt* otherwise = nullptr);
     void add_reader(std::string_view name, const Symbol& result, std::vector<Symbol*> formals,
-                    const std::vector<Case>& cases, SourceSpan span, bool own);
+                    const std::vector<Case>& cases, SourceSpan span);
     Expr* call_by_handle(std::string_view name, Expr* object, std::vector<Expr*> args,
                          SourceSpan span);
     void stands_in_body();

@@ -111,7 +111,7 @@ Expr* HandleCalls::variable_read(CallExpr& e) {
     }
     Symbol result;
     result.type = {BaseType::Float, -1};
-    add_reader(name, result, formals, cases, e.span, own);
+    add_reader(name, result, formals, cases, e.span);
     std::vector<Expr*> args;
     if (reads) args.push_back(e.args[2]);
     return call_by_handle(name, object, args, e.span);
@@ -126,15 +126,16 @@ Expr* HandleCalls::vertex_value(CallExpr& e) {
     return node;
 }
 
-// A function that names members stands behind them.
+// A function that names members of the first unit stands behind them.
 void HandleCalls::add_reader(std::string_view name, const Symbol& result,
                              std::vector<Symbol*> formals, const std::vector<Case>& cases,
-                             SourceSpan span, bool own) {
+                             SourceSpan span) {
     size_t known = expander_.candidates_.size();
     add_function(name, result, std::move(formals), cases, span);
     bool added = expander_.candidates_.size() > known;
-    if (added && own && expander_.unit_ == 0)
-        expander_.behind_members_.insert(expander_.candidates_.back().function);
+    bool of_first =
+        std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.unit == 0; });
+    if (added && of_first) expander_.behind_members_.insert(expander_.candidates_.back().function);
 }
 
 // The type of a variable or element as it is written.
@@ -181,7 +182,7 @@ Expr* HandleCalls::read_by_text(CallExpr& e) {
     result.type = {BaseType::Float, -1};
     std::string name =
         fmt::format("getvar:{}@{:x}{}", reads ? type_name(*type) : "?", set, own ? " own" : "");
-    add_reader(name, result, formals, cases, e.span, own);
+    add_reader(name, result, formals, cases, e.span);
     return call_by_handle(name, object, {e.args.begin() + 1, e.args.end()}, e.span);
 }
 

@@ -137,7 +137,7 @@ int choose_outputs(const std::string& output, const rsl::Shader& shader, ShadeSt
             stack.lower.aovs.push_back(name);
             return kExitOk;
         }
-        names.push_back(parameter.name);
+        if (!array) names.push_back(parameter.name);
         std::string last = fmt::format("{}.{}", parameter.name, parameter.type.array_length - 1);
         all += array ? fmt::format(", {}.0 to {}", parameter.name, last)
                      : fmt::format(", {}", parameter.name);
