@@ -183,9 +183,10 @@ bool Updater::find_traceable(GeometryState& row) {
 // Builds the row's tree of its traceable triangles. Returns false if there is none, so that the row
 // is left out.
 bool Updater::build_deforming(GeometryState& row) {
+    const double area = row.sound ? watch(row.seen).sum : 0;
     const bool traced = row.sound && (row.kept.empty() || any_traceable(row.kept));
     if (traced) {
-        rebuild(row, deforming_quality(), watch(row.seen).sum);
+        rebuild(row, deforming_quality(), area);
     } else if (row.attached) {
         s.top.detach(row.slot);
         row.attached = false;

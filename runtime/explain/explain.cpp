@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "runtime/explain/explain_p.h"
+#include "runtime/scene/camera.h"
+#include "runtime/scene/values.h"
 #include "runtime/trade/knobs.h"
 
 namespace kinora {
@@ -30,6 +33,12 @@ void explain_added(const Scene& scene, const Pose&, ExplainedRows& rows) {
     for (const std::string& name : scene.added) rows.add(name, "added", "the file has none in use");
 }
 
+// The nodes and the camera of a pose that has made no frame.
+void stand_at_start(const Scene& scene, Pose& pose) {
+    evaluate_anew(scene, pose, scene.options.start_time);
+    set_view(scene, pose, scene.options.width, std::max(scene.options.height, 1));
+}
+
 constexpr struct {
     std::string_view name;
     void (*explain)(const Scene&, const Pose&, ExplainedRows&);
@@ -43,6 +52,9 @@ constexpr struct {
 
 std::vector<Explained> explain(const Scene& scene, const Pose& pose, const Quality& quality,
                                std::string_view preset) {
+    std::optional<Pose> begins;
+    if (pose.first_frame) stand_at_start(scene, begins.emplace(scene));
+    const Pose& seen = begins ? *begins : pose;
     std::vector<Explained> found;
     ExplainedRows rows(found);
     rows.section("settings");
@@ -50,7 +62,7 @@ std::vector<Explained> explain(const Scene& scene, const Pose& pose, const Quali
     for (const auto& section : kSections) {
         rows.section(section.name);
         const size_t first = found.size();
-        section.explain(scene, pose, rows);
+        section.explain(scene, seen, rows);
         std::stable_partition(found.begin() + ptrdiff_t(first), found.end(),
                               [](const Explained& row) { return row.modelled; });
     }

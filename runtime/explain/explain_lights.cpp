@@ -28,9 +28,10 @@ bool find_sphere(const Scene& scene, const Pose& pose, uint32_t index, Sphere& s
         return false;
     const bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
     const dvec3 anchor = scene.meshes[shape.mesh].anchor;
+    const dmat4 world = pose.nodes[shape.node].world * shape.conversion;
     dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
     for (const vec4& p : stands.shown_positions) {
-        const dvec3 at = instanced ? dvec3(stands.world * dvec4(dvec3(vec3(p)) + anchor, 1))
+        const dvec3 at = instanced ? dvec3(world * dvec4(dvec3(vec3(p)) + anchor, 1))
                                    : dvec3(vec3(p)) + scene.origin;
         low = glm::min(low, at);
         high = glm::max(high, at);

@@ -8,6 +8,8 @@
 
 #include "expect_colors.h"
 #include "runtime/load/smooth_normals.h"
+#include "runtime/scene/values.h"
+#include "runtime/vertices/deform.h"
 
 namespace kinora {
 namespace {
@@ -367,9 +369,18 @@ TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
 // ---- morphs on morphs and skins
 
 // Where the first vertex stands in the world.
+// Brings the pose to the scene's start, without a frame.
+void stand(const Rendering& r) {
+    evaluate_anew(*r.scene, *r.pose, r.scene->options.start_time);
+    pose_joints(*r.scene, *r.pose);
+    deform(*r.scene, *r.pose);
+}
+
 dvec3 first_vertex(const Rendering& r) {
     EXPECT_TRUE(r.scene) << r.findings();
-    return r.scene ? dvec3(r.pose->shapes[0].shown_positions[0]) + r.scene->origin : dvec3(0.0);
+    if (!r.scene) return dvec3(0.0);
+    stand(r);
+    return dvec3(r.pose->shapes[0].shown_positions[0]) + r.scene->origin;
 }
 
 // One triangle whose first vertex is (1, 0, 0); targets move it along y and z.
@@ -535,6 +546,7 @@ dvec3 placed(const Rendering& r, dvec3 p, size_t shape = 0) {
         ADD_FAILURE() << r.findings();
         return dvec3(0.0);
     }
+    stand(r);
     return dvec3(r.pose->shapes[shape].world * dvec4(p, 1.0));
 }
 

@@ -30,7 +30,7 @@ struct TradeWork {
     TradeRow* row = nullptr;
     size_t index = 0;  // of the row
     PosedScene* scene = nullptr;
-    PosedScene own{};  // where no base has the same
+    std::unique_ptr<PosedScene> own{};  // where no base has the same
     std::vector<double> ratios{}, wall_ms{};
     std::array<double, kStageCount> stage_shares{};
     std::vector<PictureErrors> errors{};

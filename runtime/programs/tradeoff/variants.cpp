@@ -91,9 +91,9 @@ bool Measurement::prepare(TradeWork& work) {
         if (scene_key(quality) == scene_key(quality_of(*base))) work.scene = &base->scene;
     if (!work.scene) {
         Stopwatch watch;
-        work.own = renders_.build(quality);
+        work.own = std::make_unique<PosedScene>(renders_.build(quality));
         work.row->times.build_ms = watch.ms();
-        work.scene = work.own ? &work.own : nullptr;
+        work.scene = *work.own ? work.own.get() : nullptr;
     }
     if (!work.scene) work.row->not_measured = "its scene could not be built";
     return work.scene != nullptr;

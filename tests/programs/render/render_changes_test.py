@@ -193,7 +193,7 @@ class Changes(ProgramTest):
                  "--skip-existing", "--stats=json")
         def skipped(*more):
             stats = json.loads(self.expect(render(self.scene, *words, *more), 0).out)
-            return stats["frames"][0].get("skipped", False)
+            return stats["frames"][0]["state"] == "kept"
         for more in ((), ("--exposure", "1"), ("--exposure", "auto"), ("--param", "grey.1.Kd=1"), ("--hide", "left"), ("--only", "left"),
                      ("--lights", "both")):
             self.assertFalse(skipped(*more))

@@ -106,7 +106,7 @@ class Redice(ProgramTest):
         words = ("--skip-existing", "--frames", "9-11", "--stats=json")
         self.render(DIVING, *words, out="f.##.png")
         stats = json.loads(self.render(DIVING, *words, out="f.##.png").out)
-        self.assertEqual([frame.get("skipped") for frame in stats["frames"]], [True] * 3)
+        self.assertEqual([frame["state"] for frame in stats["frames"]], ["kept"] * 3)
         self.assertEqual(stats["redices"], 0)
         text = DIVING.replace("surface clay()", "surface clay(output varying float height = 0;)").replace(
             "Oi = 1;", "Oi = 1; height = zcomp(P);")
