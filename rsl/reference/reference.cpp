@@ -376,7 +376,8 @@ void Reference<Real>::run_layer(const Layer& next) {
     for (const NamedTable& table : shader.definition->named_tables) {
         const Storage &names = storage(*table.names), &values = storage(*table.values);
         for (size_t k = 0; k < std::min(names.size(), values.size()); ++k)
-            output(aov_key(names[k].text(), -1, form_of(values[k].type), 0), values[k]);
+            if (names[k].c[0].x >= 0)  // beyond the list's length there is no text
+                output(aov_key(names[k].text(), -1, form_of(values[k].type), 0), values[k]);
     }
     if (displacement || shader.kind == ShaderKind::Light) return;
     Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));

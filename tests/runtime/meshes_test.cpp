@@ -369,8 +369,9 @@ TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
 // ---- morphs on morphs and skins
 
 // Where the first vertex stands in the world.
-// Brings the pose to the scene's start, without a frame.
+// Brings a pose that has made no frame to the scene's start.
 void stand(const Rendering& r) {
+    if (!r.pose->first_frame) return;
     evaluate_anew(*r.scene, *r.pose, r.scene->options.start_time);
     pose_joints(*r.scene, *r.pose);
     deform(*r.scene, *r.pose);

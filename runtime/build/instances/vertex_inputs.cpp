@@ -1,6 +1,7 @@
 // runtime/build/instances/vertex_inputs.cpp: vertex inputs for the varying parameters of shaders.
 #include "runtime/build/instances/vertex_inputs.h"
 
+#include <algorithm>
 #include <set>
 
 #include "runtime/description/picture_rules.h"
@@ -64,9 +65,20 @@ class InputFinder {
     }
 
     void add_color(const ShaderUse& layer) {
-        if (layer.untinted) return;
+        if (layer.untinted || (layer.linear_inputs && gives_color(layer))) return;
         const VertexAttribute* color = read_by(layer, find_attribute(group_, "COLOR"));
         if (color && color->stride >= 3) add("Cs", "COLOR", color, 0, 3);
+    }
+
+    // Whether the file has the colors for a parameter: then they do not tint as well.
+    bool gives_color(const ShaderUse& layer) const {
+        auto is_parameter = [&](const VertexBinding& binding) {
+            return binding.semantic == "COLOR" &&
+                   std::ranges::any_of(layer.shader->parameters, [&](const auto& parameter) {
+                       return parameter.name == binding.param;
+                   });
+        };
+        return use_ && std::ranges::any_of(use_->vertex_bindings, is_parameter);
     }
 
     void add_parameter(const ShaderUse& layer, const rsl::ShaderParameter& p) {

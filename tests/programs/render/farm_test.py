@@ -44,10 +44,10 @@ class Run(ProgramTest):
 
 class Folders(Run):
     def removed(self, *words):
-        """A run of 30 frames whose folder goes after the second."""
+        """A run of 30 frames whose folder goes after the third."""
         folder = self.folder / "out"
-        process = self.start(MATTE, "-o", folder / "f.####.png", "--frames", "1-30", *LONG, "--progress", "none", *words)
-        self.wait_for((folder / "f.0002.png").exists)
+        process = self.start(MATTE, "-o", folder / "f.####.png", "--frames", "1-30", *LONG, "--progress", "none", "-v", *words)
+        self.wait_for((folder / "f.0003.png").exists)  # the second is known to be written
         os.rename(folder, self.folder / "elsewhere")
         code, out, err = self.ended(process)
         self.assertFalse(folder.exists())  # not made again
