@@ -232,7 +232,7 @@ class Options(ProgramTest):
         for name in (b"lamps.0.R\0", b"lamps.2.B\0", b"weights.0\0", b"weights.1\0", b"w\0"):
             self.assertIn(name, header)
         self.assertNotIn(b"lamps.3.R\0", header)
-        self.assertIn("lamps (color[3], of out)", render(*words, "--list", "aovs").stdout)
+        self.assertIn("lamps (color[3], of out)", render(*words, "--list", "aovs").out)
 
     def test_imagers_are_chosen_by_name_by_file_and_not_at_all(self):
         def picture(imager):
