@@ -18,7 +18,7 @@ namespace kinora::collada {
 
 namespace {
 
-constexpr uintmax_t kMaxBytes = 4 << 20;
+constexpr uintmax_t kMostKmlBytes = 4 << 20;
 constexpr size_t kMostModels = 1000;
 
 // A number of a <Model>: what stands around it, its name, the values it may have.
@@ -147,7 +147,7 @@ dmat4 turn(int axis, double degrees) {
 }  // namespace
 
 std::vector<KmlModel> read_kml(const std::string& path) {
-    std::optional<std::string> bytes = read_regular_file(path, kMaxBytes);
+    std::optional<std::string> bytes = read_regular_file(path, kMostKmlBytes);
     if (!bytes) return {};
     DecodedText decoded = decode_text(std::move(*bytes));
     std::string text = escape_ampersands(decoded.text, bare_ampersands(decoded.text));
