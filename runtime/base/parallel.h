@@ -30,8 +30,8 @@ class FunctionRef<R(Args...)> {
     R (*call_)(void*, Args...);
 };
 
-// Bounds the threads that all later parallel work uses, the calling one included; n >= 1. Before the
-// first call they are usable_cores(). While a loop runs, only to what it is already, which does
+// Bounds the threads that all later parallel work uses, the calling one included; n >= 1. Before
+// the first call they are usable_cores(). While a loop runs, only to what it is already, which does
 // nothing.
 void set_thread_count(int n);
 int thread_count();
