@@ -226,7 +226,8 @@ constexpr ManualEntry kObjects[] = {
      "arraylength(). "
      "It begins empty, or with the values or the length given. The length may differ between "
      "points. It has room for what resize(), reserve() or a list of values names. Where a loop or "
-     "a number known at run time decides, it has room for 4096 elements. What is beyond is left out "
+     "a number known at run time decides, it has room for 4096 elements. What is beyond is left "
+     "out "
      "and reported.",
      R"(surface rings(float count = 5;) {
     float radii[], k;

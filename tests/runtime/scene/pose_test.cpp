@@ -1,4 +1,5 @@
-// tests/runtime/scene/pose_test.cpp: several poses of one scene, one after the other and side by side.
+// tests/runtime/scene/pose_test.cpp: several poses of one scene, one after the other and side by
+// side.
 #include <gtest/gtest.h>
 
 #include <malloc.h>
