@@ -50,7 +50,7 @@ inline void terminate() {
     static std::atomic_flag told;
     char line[96];
     const int length = std::snprintf(line, sizeof line, "%s: %s\n", g_program, missing);
-    if (!told.test_and_set() && write(STDERR_FILENO, line, size_t(length)) < 0) _exit(kExitRetry);
+    if (!told.test_and_set() && ::write(STDERR_FILENO, line, size_t(length)) < 0) _exit(kExitRetry);
     _exit(kExitRetry);
 }
 
