@@ -110,8 +110,8 @@ struct KmlReading {
     }
 };
 
-// Where a place is, about the earth's centre, and what is east, north and up there (NIMA TR8350.2,
-// WGS 84: the ellipsoid that KML's coordinates are on).
+// A place relative to the earth's centre, and the directions east, north and up there. KML's
+// coordinates are on the ellipsoid WGS 84 (NIMA TR8350.2).
 struct EarthFrame {
     dvec3 place, east, north, up;
 };

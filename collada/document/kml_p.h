@@ -26,8 +26,8 @@ struct KmlModel {
 // gets wrong beyond numbers is no finding: it is no COLLADA.
 std::vector<KmlModel> read_kml(const std::string& path);
 
-// Metres to the east, to the north and up of the model itself, into those of `origin`. Both have a
-// place, or the matrix turns and scales alone.
+// The matrix from the model's metres (east, north, up) to those of `origin`. It only turns and
+// scales where one of them has no place.
 dmat4 kml_place(const KmlModel& model, const KmlModel& origin);
 
 }  // namespace kinora::collada

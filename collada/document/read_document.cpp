@@ -13,8 +13,8 @@ constexpr size_t kMaxBytes = 0x7fffffff;                // byte offsets are 32 b
 constexpr uint64_t kMostFileBytes = uint64_t(1) << 34;  // in whatever encoding
 constexpr size_t kMostAmpersands = 20;                  // that a finding names
 
-// A declaration that something stands before becomes white space, and so do byte order marks before
-// it: the text is UTF-8 by now, and what is behind keeps its place.
+// A late declaration and byte order marks before it become white space: the text is UTF-8 already,
+// and the bytes behind them keep their offsets.
 std::optional<ByteRange> blank_late_declaration(std::string& text) {
     std::optional<ByteRange> declaration = xml_declaration(text);
     if (!declaration || declaration->begin == 0) return std::nullopt;

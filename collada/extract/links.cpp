@@ -74,7 +74,7 @@ Link resolve(Extraction& x, Link from, std::string_view attribute, Kinds kinds) 
     }
     if (const Element* other = x.document(doc).find(id))
         x.diag.report(Code::LINK_WRONG_TYPE, where, url, other->name, kinds_text(kinds));
-    else if (x.document(doc).whole())  // else an error may have cut off what is meant
+    else if (x.document(doc).whole())  // an error may have cut the target off
         x.diag.report(Code::LINK_UNRESOLVED, where, url, kinds_text(kinds));
     return {};
 }

@@ -39,7 +39,8 @@ uint32_t input_offset(Extraction& x, Link input) {
     return kNone;
 }
 
-// Of two inputs with one semantic and set the first is used, those of <vertices> before others.
+// The first of two inputs with one semantic and set counts, so that all programs read the same one;
+// inputs of <vertices> come before others.
 // The second is left out here, so that all readers of the group show the same one.
 void add_first_of_set(MeshReader& mesh, Location where, std::string_view set, VertexInput input,
                       Inputs& inputs) {

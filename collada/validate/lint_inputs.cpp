@@ -8,7 +8,7 @@ namespace kinora::collada {
 
 namespace {
 
-// Several sets of a semantic, which importers mix up. Each semantic is told once.
+// Several sets of a semantic, which importers mix up. Each semantic gets one finding.
 void check_sets(Lint& lint, const Element& primitive, std::set<std::string_view>& told) {
     std::map<std::string_view, std::set<std::string_view>> sets;
     for (const Element& input : primitive.children())

@@ -112,7 +112,7 @@ void check_inputs(Lint& lint) {
 
 void check_idref(Lint& lint, std::string_view id, Location where, std::string_view kind) {
     const Element* found = lint.document.find(id);
-    if (!found && !lint.document.whole()) return;  // an error may have cut off what is meant
+    if (!found && !lint.document.whole()) return;  // an error may have cut the target off
     if (!found)
         lint.diag.report(Code::LINK_UNRESOLVED, where, id, kind);
     else if (kind != "element" && !find_kind(lint.document, id, {kind}))

@@ -227,8 +227,7 @@ constexpr ManualEntry kObjects[] = {
      "It begins empty, or with the values or the length given. The length may differ between "
      "points. It has room for what resize(), reserve() or a list of values names. Where a loop or "
      "a number known at run time decides, it has room for 4096 elements. What is beyond is left "
-     "out "
-     "and reported.",
+     "out and reported.",
      R"(surface rings(float count = 5;) {
     float radii[], k;
     for (k = 1; k <= count; k += 1) push(radii, k / count * 0.5);
