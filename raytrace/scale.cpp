@@ -49,6 +49,17 @@ float scale_within(double size, double least, double most) {
     return float(std::ldexp(1.0, (size < least ? 0 : std::ilogb(most)) - std::ilogb(size)));
 }
 
+// Embree takes a hit's barycentrics for 0 where twice the triangle's area, seen along the ray,
+// times the ray's length in the mesh's space is below 1e-18 (its min_rcp_input): of a mesh of size
+// m that fills a scene of size s, m^3 / s times the square of the triangle's share. m^3 >= 2^-40 s
+// leaves room for shares down to a thousandth.
+float local_scale(double scene_size, double mesh_size) {
+    double least = 1;
+    if (scene_size <= 0x1p20)
+        least = std::max(0x1p-13, std::exp2((std::log2(scene_size) - 40) / 3));
+    return scale_within(mesh_size, least, 0x1p23);
+}
+
 RayPacket16 scaled(const RayPacket16& rays, float scale) {
     RayPacket16 out = rays;
     for (int i = 0; i < kPacket; ++i) {

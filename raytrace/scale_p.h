@@ -27,9 +27,7 @@ inline float top_scale(double size) {
 
 // Of a mesh that is instanced in it: what an instance's matrix scales by stays within kLargestGain
 // (placement.cpp), however a file divides sizes between vertices and nodes.
-inline float local_scale(double scene_size, double mesh_size) {
-    return scale_within(mesh_size, scene_size <= 0x1p20 ? 0x1p-13 : 1, 0x1p23);
-}
+float local_scale(double scene_size, double mesh_size);
 
 // What Embree sees of the rays; directions stay, so distances are scaled.
 RayPacket16 scaled(const RayPacket16& rays, float scale);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "raytrace/accel.h"
 #include "tests/raytrace/meshes.h"
@@ -197,14 +198,14 @@ TEST(ExtremeMesh, RaysFromAfarAtSmallInstancesDoNotAbort) {
 
 // ---- sizes at which the products of three lengths are no floats
 
-// The mesh at `size`, all of it in its vertices or in the matrix, as one row.
+// A mesh as one row, its size shared between its vertices and its matrix.
 struct SizedRow {
     TestMesh mesh = sphere(1, {0, 0, 0}, 256, 128);  // small triangles
     std::vector<Geometry> rows;
-    SizedRow(GeometryKind kind, float size, bool by_matrix) {
-        for (vec4& p : mesh.positions) p *= by_matrix ? 1 : size;
+    SizedRow(GeometryKind kind, float of_vertices, float of_matrix = 1) {
+        for (vec4& p : mesh.positions) p *= of_vertices;
         rows = {mesh.geometry(5, kind)};
-        for (int c = 0; c < 3 && by_matrix; ++c) rows[0].accel_from_local[c] *= double(size);
+        for (int c = 0; c < 3; ++c) rows[0].accel_from_local[c] *= double(of_matrix);
     }
     Accel traced() const {
         Accel accel({.background = false});
@@ -237,15 +238,25 @@ void expect_hits_of_size_one(const Accel& accel, const Accel& home, float size) 
 }
 
 TEST(ExtremeMesh, SizesOfAnyPowerAreTracedAsSizeOne) {
-    for (GeometryKind kind : kKinds)
-        for (bool by_matrix : {false, true}) {
-            if (by_matrix && kind != GeometryKind::Instanced) continue;
-            SizedRow one(kind, 1, by_matrix);
-            const Accel home = one.traced();
-            for (float size : {0x1p-50f, 0x1p-40f, 0x1p-30f, 0x1p-10f, 0x1p20f, 0x1p40f, 0x1p50f}) {
-                SizedRow row(kind, size, by_matrix);
-                expect_hits_of_size_one(row.traced(), home, size);
-            }
+    for (GeometryKind kind : kKinds) {
+        SizedRow one(kind, 1);
+        const Accel home = one.traced();
+        for (float size : {0x1p-50f, 0x1p-40f, 0x1p-30f, 0x1p-10f, 0x1p20f, 0x1p40f, 0x1p50f}) {
+            SizedRow row(kind, size);
+            expect_hits_of_size_one(row.traced(), home, size);
+        }
+    }
+}
+
+TEST(ExtremeMesh, SizesAreSharedByVerticesAndMatrixAsOneLikes) {
+    SizedRow one(GeometryKind::Instanced, 1);
+    const Accel home = one.traced();
+    for (int size = -40; size <= 40; size += 8)
+        for (int of_vertices = -48; of_vertices <= 48; of_vertices += 6) {
+            const float whole = std::ldexp(1.0f, size), part = std::ldexp(1.0f, of_vertices);
+            SizedRow row(GeometryKind::Instanced, part, whole / part);
+            SCOPED_TRACE(testing::Message() << "size 2^" << size << ", vertices 2^" << of_vertices);
+            expect_hits_of_size_one(row.traced(), home, whole);
         }
 }
 
@@ -253,7 +264,7 @@ TEST(ExtremeMesh, SizesOfAnyPowerAreTracedAsSizeOne) {
 TEST(ExtremeMesh, SmallMeshesThatMoveStayTraced) {
     constexpr float kSize = 0x1p-45f;
     for (bool background : {false, true}) {
-        SizedRow row(GeometryKind::Deforming, kSize, false);
+        SizedRow row(GeometryKind::Deforming, kSize);
         Accel accel({.background = background});
         accel.update(row.rows);
         for (float stretch : {1.1f, 2.0f, 5.0f}) {
@@ -287,7 +298,7 @@ TEST(ExtremeMesh, OneVertexFarOffDoesNotMakeTheRestVanish) {
 TEST(ExtremeMesh, WhatBeginsAlmostAsAPointIsSeenWhenItHasGrown) {
     for (GeometryKind kind : {GeometryKind::Deforming, GeometryKind::Instanced})
         for (double small : {1e-30, 1e-12, 1e-6, 1e-4}) {
-            SizedRow row(kind, 1, false);
+            SizedRow row(kind, 1);
             const std::vector<vec4> grown = row.mesh.positions;
             Geometry& geometry = row.rows[0];
             if (kind == GeometryKind::Instanced)
