@@ -122,11 +122,13 @@ class GltfToCommon {
     void shade() {
         bool mapped = !text("metallic_roughness_map").empty();
         if (mapped) to_.lost.push_back("its map of metal and roughness");
+        const bool glossy = !text("specular_glossiness_map").empty();
+        if (glossy) to_.lost.push_back("its map of specular color and glossiness");
         if (!text("occlusion_map").empty()) to_.lost.push_back("its map of occlusion");
         // Where a map says what is metal, most is none.
         double metal = mapped ? 0 : std::clamp(number("metallic", 1), 0.0, 1.0);
         dvec3 base = color("base_color", 1);
-        double rough = std::clamp(number("roughness", 1), 0.0, 1.0);
+        double rough = glossy ? 0.5 : std::clamp(number("roughness", 1), 0.0, 1.0);
         bool textured = !text("base_color_map").empty();
         dvec3 mirrored = textured ? dvec3(0.0) : base * (metal * metal_albedo(rough));
         dvec3 factor = textured ? base : base * (1 - metal);
@@ -138,10 +140,11 @@ class GltfToCommon {
         if (dvec3 glow = color("emissive", 0); glow != dvec3(0.0))
             light("emission", "emissive", glow);
 
-        // gltf_pbr.sl, F0 and alpha2.
-        dvec3 dielectric =
-            number("specular", 1) *
-            glm::min(number("dielectric_F0", 0.04) * color("specular_color", 1), dvec3(1.0));
+        // gltf_pbr.sl, F0 and alpha2. Where a map says what is reflected, most is as plastic is.
+        dvec3 dielectric = glossy ? dvec3(0.04)
+                                  : number("specular", 1) * glm::min(number("dielectric_F0", 0.04) *
+                                                                         color("specular_color", 1),
+                                                                     dvec3(1.0));
         dvec3 F0 = glm::mix(dielectric, textured ? dielectric : base, metal);
         double alpha2 = std::max(std::pow(rough, 4), 2 / (kMostShininess + 2));
         set("specular", F0 / (4 * alpha2));

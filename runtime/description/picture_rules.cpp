@@ -29,6 +29,11 @@ const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_v
     return best;
 }
 
+const VertexAttribute* normals_of(const PrimitiveGroup& group) {
+    const VertexAttribute* found = find_attribute(group, "NORMAL");
+    return found && found->stride >= 3 ? found : nullptr;
+}
+
 const VertexBinding* find_binding(const MaterialUse* use, std::string_view name) {
     if (use)
         for (const VertexBinding& binding : use->vertex_bindings)

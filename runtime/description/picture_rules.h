@@ -22,6 +22,9 @@ bool shows_a_mesh(const SceneDescription& description);
 const VertexAttribute* find_attribute(const PrimitiveGroup& group, std::string_view semantic,
                                       uint32_t set = kNone);
 
+// The vertex normals that the picture has: of the lowest set. Null where the group is flat.
+const VertexAttribute* normals_of(const PrimitiveGroup& group);
+
 // What the instance binds a name to; null where it binds nothing.
 const VertexBinding* find_binding(const MaterialUse* use, std::string_view name);
 

@@ -11,6 +11,7 @@
 #include "runtime/gltf/import/import.h"
 #include "runtime/load/face_normals.h"
 #include "runtime/load/smooth_normals.h"
+#include "runtime/load/target_normals.h"
 
 namespace kinora {
 
@@ -44,6 +45,7 @@ std::optional<SceneDescription> import_scene(const std::string& path, const Impo
     // Without normals a group is flat: nothing is to be made for 0 degrees.
     double degrees = options.smooth.value_or(gltf ? 0 : kCreaseDegrees);
     if (degrees > 0) smooth_normals(*description, degrees);
+    part_normals_by_targets(*description);
     return description;
 }
 

@@ -192,32 +192,50 @@ class Fans {
 };
 
 // Where the vertices of the base are when a target has its whole weight.
-std::vector<dvec3> moved_by(const SceneDescription& description, const MeshDefinition& base,
-                            uint32_t morph, uint32_t target) {
-    const std::vector<dvec3>& positions = description.meshes[target].positions;
-    bool relative = description.morphs[morph].relative;
+std::vector<dvec3> moved_by(const MorphDefinition& morph, const MeshDefinition& base,
+                            const MeshDefinition& target) {
+    const std::vector<dvec3>& positions = target.positions;
+    const bool relative = morph.relative;
     std::vector<dvec3> moved = base.positions;
     for (size_t i = 0; i < std::min(moved.size(), positions.size()); ++i)
         moved[i] = relative ? moved[i] + positions[i] : positions[i];
     return moved;
 }
 
-// The targets of a morph with normals for the groups of the base that now have some: copies, since
-// other meshes may share what they are.
+// How many nodes and morphs use each mesh.
+std::vector<uint32_t> uses_of_meshes(const SceneDescription& description) {
+    std::vector<uint32_t> uses(description.meshes.size(), 0);
+    for (const NodeDefinition& node : description.nodes)
+        for (const MeshUse& use : node.meshes)
+            if (use.mesh < uses.size()) ++uses[use.mesh];
+    for (const MorphDefinition& morph : description.morphs)
+        for (uint32_t target : morph.targets) ++uses[target];
+    return uses;
+}
+
+// The targets of a morph with normals for the groups of the base that now have some. Those that
+// others use too are copied.
 void smooth_targets(SceneDescription& description, const MeshDefinition& base, uint32_t morph,
                     Fans& fans, const std::vector<VertexAttribute>& rest) {
+    const std::vector<uint32_t> uses = uses_of_meshes(description);
     bool relative = description.morphs[morph].relative;
     for (uint32_t& target : description.morphs[morph].targets) {
-        MeshDefinition copy = description.meshes[target];
+        const bool own = uses[target] == 1;
+        MeshDefinition copy =
+            own ? std::move(description.meshes[target]) : description.meshes[target];
         copy.groups.resize(base.groups.size());
         std::vector<VertexAttribute> normals =
-            fans.normals(base, moved_by(description, base, morph, target));
+            fans.normals(base, moved_by(description.morphs[morph], base, copy));
         for (size_t k = 0; k < normals.size(); ++k) {
             for (size_t v = 0; relative && v < normals[k].values.size(); ++v)
                 normals[k].values[v] -= rest[k].values[v];
             auto& attributes = copy.groups[fans.groups()[k]].attributes;
             std::erase_if(attributes, [](const auto& a) { return a.semantic == "NORMAL"; });
             attributes.push_back(std::move(normals[k]));
+        }
+        if (own) {
+            description.meshes[target] = std::move(copy);
+            continue;
         }
         target = uint32_t(description.meshes.size());
         description.meshes.push_back(std::move(copy));
@@ -234,7 +252,8 @@ void add_normals(SceneDescription& description, double degrees, bool of_flat_mes
         if (fans.empty()) continue;
         for (uint32_t morph : morphs[m])
             for (uint32_t target : description.morphs[morph].targets)
-                fans.crease(moved_by(description, description.meshes[m], morph, target));
+                fans.crease(moved_by(description.morphs[morph], description.meshes[m],
+                                     description.meshes[target]));
         if (!of_flat_meshes && !fans.bends(description.meshes[m].positions)) continue;
         fans.join();
         std::vector<VertexAttribute> normals =

@@ -77,8 +77,8 @@ Mesh build_mesh(const MeshDefinition& definition, bool deforms) {
         out.symbol = group.symbol;
         out.triangles = group.triangles;
         out.definition = &group;
-        const VertexAttribute* normals = find_attribute(group, "NORMAL");
-        if (normals && normals->stride >= 3) add_given_normals(group, *normals, deforms, mesh, out);
+        if (const VertexAttribute* normals = normals_of(group))
+            add_given_normals(group, *normals, deforms, mesh, out);
     }
     return mesh;
 }

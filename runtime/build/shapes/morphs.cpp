@@ -5,17 +5,11 @@
 
 #include "runtime/description/findings.h"
 #include "runtime/description/morph_weights.h"
+#include "runtime/description/picture_rules.h"
 
 namespace kinora {
 
 namespace {
-
-const VertexAttribute* normals_of(const PrimitiveGroup& group) {
-    const VertexAttribute* found = nullptr;
-    for (const VertexAttribute& a : group.attributes)
-        if (a.semantic == "NORMAL" && a.stride >= 3) found = &a;
-    return found;
-}
 
 // A target's normals in the order of the base's entries: the file's, where target and base have the
 // same corners; else none (the base's stay).

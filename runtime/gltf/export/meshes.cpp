@@ -11,6 +11,7 @@
 
 #include "runtime/description/morph_weights.h"
 #include "runtime/description/pair_numbers.h"
+#include "runtime/description/picture_rules.h"
 #include "runtime/gltf/export/influences.h"
 
 namespace kinora {
@@ -19,12 +20,6 @@ namespace {
 
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 constexpr size_t kMostShortIndices = 65535;  // the index 65535 itself restarts a primitive
-
-const VertexAttribute* normals_of(const PrimitiveGroup& group) {
-    for (const VertexAttribute& a : group.attributes)
-        if (a.semantic == "NORMAL" && a.stride >= 3) return &a;
-    return nullptr;
-}
 
 // import_scene left none that are no directions.
 vec3 unit_normal(const dvec3& n) {

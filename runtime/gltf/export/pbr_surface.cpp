@@ -113,7 +113,11 @@ Json SurfaceWriter::pbr(const ShaderUse& shader, const MaterialUse& use,
             material["occlusionTexture"] = info;
         }
         set(material, "emissiveTexture", map("emissive", false));
-        write_light(p, material, is_all);
+        write_emission(p, material);
+        if (Json info = map("specular_glossiness", false); !info.is_null())
+            write_specular_glossiness(p, pbr, info, material, is_all);
+        else
+            write_reflection(p, material, is_all);
     }
     material["pbrMetallicRoughness"] = pbr;
     std::string mode = p.text("alpha_mode");
@@ -122,13 +126,31 @@ Json SurfaceWriter::pbr(const ShaderUse& shader, const MaterialUse& use,
     return material;
 }
 
-// What is emitted, and what a dielectric reflects.
-void SurfaceWriter::write_light(const UsedParams& p, Json& material, bool& is_all) {
+void SurfaceWriter::write_emission(const UsedParams& p, Json& material) {
     dvec3 emissive = p.color("emissive", 0);
     double most = std::max({emissive.x, emissive.y, emissive.z, 1.0});
     if (emissive != dvec3(0.0))
         material["emissiveFactor"] = {emissive.x / most, emissive.y / most, emissive.z / most};
     if (most > 1) extend(material, "KHR_materials_emissive_strength", {{"emissiveStrength", most}});
+}
+
+// The one word for a map of both; readers without it have the base color on plastic. It excludes
+// KHR_materials_ior and KHR_materials_specular.
+void SurfaceWriter::write_specular_glossiness(const UsedParams& p, Json& pbr, Json texture,
+                                              Json& material, bool& is_all) {
+    dvec3 specular = p.color("specular_color", 1);
+    Json glossy = {{"diffuseFactor", pbr["baseColorFactor"]},
+                   {"specularFactor",
+                    {unit(specular.x, is_all), unit(specular.y, is_all), unit(specular.z, is_all)}},
+                   {"glossinessFactor", unit(1 - p.number("roughness", 1), is_all)},
+                   {"specularGlossinessTexture", std::move(texture)}};
+    if (pbr.contains("baseColorTexture")) glossy["diffuseTexture"] = pbr["baseColorTexture"];
+    pbr["roughnessFactor"] = 0.5;
+    extend(material, "KHR_materials_pbrSpecularGlossiness", std::move(glossy));
+}
+
+// What a dielectric reflects.
+void SurfaceWriter::write_reflection(const UsedParams& p, Json& material, bool& is_all) {
     // KHR_materials_ior: an ior of 0 reflects all.
     double r = std::sqrt(unit(p.number("dielectric_F0", 0.04), is_all));
     if (std::abs(r - 0.2) > 1e-9)

@@ -31,7 +31,10 @@ class SurfaceWriter {
     Json texture_info(const ParamSource& map, const MaterialUse& use, const PrimitiveGroup& group);
     Json pbr_map_info(const ShaderUse& shader, const std::string& slot, bool data,
                       const MaterialUse& use, const PrimitiveGroup& group, bool& is_all);
-    void write_light(const UsedParams& params, Json& material, bool& is_all);
+    void write_emission(const UsedParams& params, Json& material);
+    void write_specular_glossiness(const UsedParams& params, Json& pbr, Json texture,
+                                   Json& material, bool& is_all);
+    void write_reflection(const UsedParams& params, Json& material, bool& is_all);
     void extend(Json& material, const char* extension, Json value);
 
     const SceneDescription& description_;

@@ -1,5 +1,6 @@
 // runtime/gltf/import/morphs.cpp: glTF's morph targets as meshes of differences.
 #include "runtime/gltf/import/morphs.h"
+#include "runtime/description/picture_rules.h"
 
 #include <fmt/format.h>
 
@@ -14,12 +15,6 @@ namespace kinora {
 namespace {
 
 constexpr uint32_t kMorphPoint[] = {3};
-
-const VertexAttribute* normals_of(const PrimitiveGroup& group) {
-    for (const VertexAttribute& a : group.attributes)
-        if (a.semantic == "NORMAL") return &a;
-    return nullptr;
-}
 
 }  // namespace
 

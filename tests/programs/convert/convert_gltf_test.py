@@ -363,6 +363,20 @@ class Materials(GltfConvert):
                 self.assertEqual(a, b)
         near(material, written)
 
+    def test_a_map_of_specular_color_and_glossiness_stays(self):
+        self.image("a.png", self.TEXELS)
+        g = Gltf(extensions={"KHR_materials_pbrSpecularGlossiness": {
+            "diffuseFactor": [.1, .6, .2, 1], "diffuseTexture": {"index": 0}, "specularFactor": [.5, .25, 1],
+            "glossinessFactor": .5, "specularGlossinessTexture": {"index": 0}}})
+        g.attributes["TEXCOORD_0"] = g.floats("VEC2", [0, 0, 1, 0, .5, 1])
+        g.tree.update(textures=[{"source": 0}], images=[{"uri": "a.png"}])
+        scene = self.save("glossy", g)
+        _, out = self.stays(scene)
+        written = glb_json(out)["materials"][0]
+        self.assertIn("specularGlossinessTexture", written["extensions"]["KHR_materials_pbrSpecularGlossiness"])
+        self.assertNotIn("KHR_materials_ior", written["extensions"])  # excluded beside it
+        self.expect(convert(scene, self.folder / "glossy.dae"), 0, "CONVERT_LOST", "its map of specular color")
+
     def test_what_glTF_has_no_number_for_is_kept_in_extras(self):
         code = {"library": "gltf_unlit", "params": {"base_color": [2, 0.5, 0.5]}}
         scene = self.save("bright", Gltf(extras={"kinora_rsl": {"surface": code}}))
