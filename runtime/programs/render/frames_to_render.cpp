@@ -8,6 +8,8 @@
 
 #include "runtime/description/findings.h"
 #include "runtime/programs/open/open_scene.h"
+#include "runtime/scene/scene.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -21,10 +23,33 @@ bool moves_beyond_keys(const anim::Animation& animation) {
     });
 }
 
+bool reads_time(const ShaderInstance& look) {
+    using Source = FrameInput::Source;
+    auto reads = [](const SceneKernel& kernel) {
+        return std::ranges::any_of(kernel.inputs, [](const FrameInput& input) {
+            return input.source == Source::Time || input.source == Source::Shutter;
+        });
+    };
+    return reads(look.full) || (look.opacity && reads(*look.opacity));
+}
+
+// A file may have a range, and nothing in it that moves.
+bool has_one_picture(const Scene& scene) {
+    auto reads = [](const auto& look) { return reads_time(*look); };
+    return scene.description->animation.channels.empty() &&
+           std::ranges::none_of(scene.shader_instances, reads) &&
+           std::ranges::none_of(scene.vertex_instances, reads);
+}
+
+bool names_one_file(const RenderOptions& options) {
+    return !options.output.empty() && !OutputName(options.output).has_token();
+}
+
 }  // namespace
 
 std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRate rate,
-                                           double start, double end) {
+                                           const Scene& scene) {
+    const double start = scene.options.start_time, end = scene.options.end_time;
     FrameTimes list;
     if (options.time) {
         list.emplace_back(std::llround(*options.time * rate.value()), *options.time);
@@ -39,7 +64,9 @@ std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRa
             list.emplace_back(frame, rate.time(frame));
     } else {
         double first = std::round(start * rate.value());
-        double last = std::round(end * rate.value());
+        double last = names_one_file(options) && has_one_picture(scene)
+                          ? first
+                          : std::round(end * rate.value());
         bool sound = std::abs(first) < kFurthestFrame && std::abs(last) < kFurthestFrame;
         if (!sound || last - first >= kMostFrames) {
             std::fprintf(stderr,
@@ -51,7 +78,7 @@ std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRa
         for (int64_t frame = int64_t(first); frame <= int64_t(last); ++frame)
             list.emplace_back(frame, rate.time(frame));
     }
-    if (list.size() > 1 && !options.output.empty() && !OutputName(options.output).has_token()) {
+    if (list.size() > 1 && names_one_file(options)) {
         std::fprintf(stderr,
                      "kinora-render: %zu frames need a frame token in -o, like %s; or choose one "
                      "with --frames\n",

@@ -9,11 +9,11 @@
 
 namespace kinora {
 
-// Frames and their times, seconds: --time, --frames, a turn of the turntable, or all from `start`
-// to `end` seconds. Nothing, with a message on stderr, where they are too many or -o has one name
-// for several.
+// Frames and their times, seconds: --time, --frames, a turn of the turntable, or all that the scene
+// plays; where nothing of it moves and -o names one file, the first. Nothing, with a message on
+// stderr, where they are too many or -o has one name for several.
 std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRate rate,
-                                           double start, double end);
+                                           const Scene& scene);
 
 // The middle frame of all that the scene plays, behind the one before it, whatever part of them is
 // rendered. Nothing where they are too many to say.

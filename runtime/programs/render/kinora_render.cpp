@@ -398,8 +398,7 @@ void catch_signals() {
 }
 
 bool Render::list_frames() {
-    const SceneOptions& played = built_.scene->options;
-    auto list = frames_to_render(options_, rate_, played.start_time, played.end_time);
+    auto list = frames_to_render(options_, rate_, *built_.scene);
     if (!list) return false;
     list_ = std::move(*list);
     report_past(options_, rate_, *built_.scene, list_, diagnostics_);

@@ -185,6 +185,18 @@ class Options(ProgramTest):
         self.expect(render(MATTE, *words), 0)
         self.assertEqual(list(self.pictures()), ["f.10000000.png"])
 
+    def test_a_range_in_which_nothing_moves_is_one_picture(self):
+        text = Path(MATTE).read_text()
+        ranged = text.replace("</visual_scene>", '<extra><technique profile="FCOLLADA"><start_time>0</start_time>'
+                              "<end_time>0.2</end_time></technique></extra></visual_scene>")
+        still, shimmering = self.folder / "still.dae", self.folder / "shimmering.dae"
+        still.write_text(ranged)
+        self.expect(render(still, "-o", self.folder / "a.png", *SMALL), 0, "(1/1)")
+        self.expect(render(still, "-o", self.folder / "b.####.png", *SMALL), 0, "6 of 6 frames")
+        shimmering.write_text(ranged.replace("Ci =", "Ci = time *", 1))
+        self.assertNotEqual(shimmering.read_text(), ranged)
+        self.expect(render(shimmering, "-o", self.folder / "a.png", *SMALL), 2, "frame token")
+
     def test_negative_frames_have_names(self):
         self.expect(render(MATTE, "-o", self.folder / "f.###.png", "--frames=-2--1", *SMALL), 0)
         self.assertEqual(list(self.pictures()), ["f.-001.png", "f.-002.png"])
