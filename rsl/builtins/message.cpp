@@ -5,7 +5,6 @@
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
-#include "rsl/model/changes.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
 
@@ -24,12 +23,7 @@ struct Variable {
         before = type.is_array() ? c.variables.array_values(expr) : std::vector<Lowered>{c.args[1]};
     }
     // The array, if its length is that of the answer; else -1.
-    static int resizable(LowerCall& c) {
-        const Expr& expr = *c.call.args[1];
-        if (!expr.type.is_array()) return -1;
-        int array = c.variables.array_of(*as<VariableExpr>(expr).symbol);
-        return c.variables.arrays().resizable(array) ? array : -1;
-    }
+    static int resizable(LowerCall& c) { return c.variables.resizable_array(*c.call.args[1]); }
     void store(std::span<const Lowered> values) {
         if (type.is_array())
             c.variables.set_array(expr, values);
@@ -86,10 +80,8 @@ void ask_list(LowerCall& c, QueryKind kind, int array, Value anchor) {
 }
 
 // Asks the renderer; the variable keeps its value where there is no answer.
-void ask(LowerCall& c, QueryKind kind, bool of_point) {
+void ask(LowerCall& c, QueryKind kind, Value anchor) {
     auto& b = c.b;
-    if (of_point) c.context.out.uses_rng = true;
-    Value anchor = of_point ? rng_input(c.b) : b.i(0);
     if (int list = Variable::resizable(c); list >= 0) return ask_list(c, kind, list, anchor);
     Variable variable(c);
     bool array = variable.type.is_array();
@@ -110,9 +102,17 @@ void ask(LowerCall& c, QueryKind kind, bool of_point) {
     c.set(c.e.flag(known));
 }
 
+void ask_at_point(LowerCall& c, QueryKind kind) {
+    c.context.out.uses_rng = true;
+    ask(c, kind, rng_input(c.b));
+}
+
 template <QueryKind kind>
 void query(LowerCall& c) {
-    ask(c, kind, kind != QueryKind::Option && kind != QueryKind::RendererInfo);
+    if (kind == QueryKind::Option || kind == QueryKind::RendererInfo)
+        ask(c, kind, c.b.i(0));
+    else
+        ask_at_point(c, kind);
 }
 
 // A resizable array takes all elements of a message.
@@ -140,7 +140,7 @@ void of_layer(LowerCall& c) {
         variable.store(c.messages.values(*m));
         return c.set(c.b.f(1));
     }
-    ask(c, kind, true);
+    ask_at_point(c, kind);
 }
 
 // A vertex input that no parameter declares (Shader::vertex_requests).
@@ -166,10 +166,16 @@ void vertexvalue(LowerCall& c) {
     c.set(c.e.flag(known));
 }
 
-// A parameter of the light that the illuminance loop is at.
+// A parameter of the light that the illuminance loop is at: from its record, or where the name or
+// the length is known at run time only, as it is bound.
 void lightsource(LowerCall& c) {
-    const std::string* name = c.text(0);
-    if (!name || !c.lights.any_current()) return;
+    if (!c.lights.any_current()) return;
+    const std::string* name = c.e.constant_text(c.args[0].c[0]);
+    if (!name || Variable::resizable(c) >= 0) {
+        auto [set, record] = c.lights.current();
+        Value light = record_uniform(c.b, set, record, kLightNumber, jit::Type::I);
+        return ask(c, QueryKind::Light, light);
+    }
     Variable variable(c);
     Value known;
     std::vector<Lowered> values = c.lights.message(*name, variable.type, variable.before, &known);
@@ -293,17 +299,17 @@ namespace {
 template <class Real>
 std::vector<double> answer_of(RefCall<Real>& c, QueryKind kind, int element, size_t length) {
     int letter = "fcpvnms"[int(c.call.args[1]->type.base)];
+    double light = kind == QueryKind::Light && c.eval.light ? c.eval.light->which : 0;
     return c.eval.service(Service::query, {double(int(kind)), double(c.args[0].c[0].x),
-                                           double(letter), double(element), double(length), 0});
+                                           double(letter), double(element), double(length), light});
 }
 
 // Sets elements as long as all before are known; a resizable array gets the answer's length.
 template <class Real>
 void ask_list(RefCall<Real>& c, QueryKind kind) {
     std::vector<RefValue<Real>>& items = c.arrays[1];
-    const Symbol& symbol = *as<VariableExpr>(*c.call.args[1]).symbol;
-    int room = array_capacities(*c.eval.layer->shader->ast)[symbol.id];
-    bool resizable = symbol.type.array_length <= 0 && room > 0;
+    int room = c.resizable_room(1);
+    bool resizable = room > 0;
     size_t length = items.size();
     bool known = true;
     if (resizable) {
@@ -416,6 +422,8 @@ void lightsource(RefCall<Real>& c) {
     const Type type = c.call.args[1]->type;
     size_t each = size_t(component_count(type.base)),
            length = std::max(c.arrays[1].size(), size_t(1));
+    const bool written = c.call.args[0]->kind == ExprKind::String;
+    if (c.eval.light && (!written || c.resizable_room(1) > 0)) return ask(c, QueryKind::Light);
     std::vector<double> found = c.eval.messages(c.text(0), each * length);
     c.set(Dual<Real>(Real(found.empty() ? 0 : 1)));
     for (size_t k = 0; k < found.size(); ++k) {

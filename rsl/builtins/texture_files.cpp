@@ -31,11 +31,40 @@ void bake(LowerCall& c) {
     c.services.call(Service::bake3d, args);
 }
 
+// A resizable array takes as many elements as the fact has.
+void fact_to_list(LowerCall& c, int array, const std::vector<Value>& answer) {
+    auto& b = c.b;
+    auto& arrays = c.variables.arrays();
+    BaseType type = arrays.element(array);
+    const bool text = type == BaseType::String;
+    const size_t each = size_t(component_count(type));
+    Value known = text ? b.op(jit::Op::IEq, answer[0], b.i(-1))
+                       : b.op(jit::Op::ILt, b.i(int(each) - 1), answer[0]);
+    Value count = text ? b.f(1) : b.floor(b.div(b.itof(answer[0]), b.f(float(each))));
+    Value before = arrays.count(array);
+    Value running = std::exchange(c.e.running, b.logical_and(c.e.running, known));
+    arrays.fill(array, count, c.where(), [&](Value index) {
+        Lowered element{type, {}};
+        for (size_t i = 0; i < each; ++i) {
+            Value x = answer[1 + i];
+            for (size_t k = 1; (k + 1) * each < answer.size(); ++k)
+                x = b.select(b.op(jit::Op::IEq, index, b.i(int(k))), answer[1 + k * each + i], x);
+            element.c[i] = text ? b.bits(x) : x;
+        }
+        return element;
+    });
+    c.e.running = running;
+    arrays.set_count(array, b.select(known, arrays.count(array), before));
+    c.set(c.e.flag(known));
+}
+
 // textureinfo(name, field, variable): 1, and the variable set, if the fact is known and fits.
 void textureinfo(LowerCall& c) {
     auto& e = c.e;
     auto& b = c.b;
     std::vector<Value> answer = c.services.call(Service::textureinfo, std::array{c.f(0), c.f(1)});
+    if (int list = c.variables.resizable_array(*c.call.args[2]); list >= 0)
+        return fact_to_list(c, list, answer);
     const Expr& variable = *c.call.args[2];
     BaseType type = variable.type.base;
     size_t each = size_t(component_count(type));
@@ -77,6 +106,8 @@ void textureinfo(RefCall<Real>& c) {
     bool known = text ? count == -1 : count >= double(each);
     c.set(Dual<Real>(Real(known)));
     size_t numbers = text ? size_t(known) : count > 0 ? size_t(count) / each * each : 0;
+    if (known && c.resizable_room(2) > 0)
+        c.arrays[2].assign(numbers / each, RefValue<Real>(c.args[2].type));
     for (size_t k = 0; k < numbers && k + 1 < answer.size(); ++k) {
         if (type.is_array() && k / each >= c.arrays[2].size()) break;
         RefValue<Real>& item = type.is_array() ? c.arrays[2][k / each] : c.args[2];

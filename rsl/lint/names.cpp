@@ -55,6 +55,10 @@ class NameWalk {
         auto methods = shader_->shader_class->methods;
         return std::find(methods.begin(), methods.end(), &f) != methods.end();
     }
+    // By rsl/objects: no name of a text has a space in it.
+    static bool is_made(const Symbol& symbol) {
+        return symbol.name.find(' ') != std::string_view::npos;
+    }
     static bool is_member(const Symbol& symbol) {
         return symbol.name.find("->") != std::string_view::npos;
     }
@@ -72,7 +76,7 @@ class NameWalk {
         bool parameter = symbol.kind != SymbolKind::Local;
         // The renderer reads parameters like __category.
         if (read_[symbol.id] || !source_.is_own(symbol.span) || symbol.name.starts_with("__") ||
-            is_read_by_others(symbol))
+            is_made(symbol) || is_read_by_others(symbol))
             return;
         if (parameter && symbol.output) return;
         source_.reporter.report(parameter ? Code::RSL_UNUSED_PARAMETER : Code::RSL_UNUSED_VARIABLE,
@@ -135,7 +139,9 @@ class NameWalk {
     }
     void report_unset(const Symbol& symbol, const Expr& at) {
         bool own = symbol.kind == SymbolKind::Local && symbol.function == function_;
-        if (!own || set_[symbol.id] || symbol.type.is_array() || !source_.is_own(at.span)) return;
+        if (!own || is_made(symbol) || set_[symbol.id] || symbol.type.is_array() ||
+            !source_.is_own(at.span))
+            return;
         for (const Changes* loop : loops_)
             if (std::find(loop->symbols.begin(), loop->symbols.end(), &symbol) !=
                 loop->symbols.end())

@@ -183,6 +183,13 @@ int Variables::array_of(const Symbol& symbol) {
     return make_array(symbol, symbol.type);
 }
 
+int Variables::resizable_array(const Expr& e) {
+    const auto* named = as_if<VariableExpr>(&e);
+    if (!named || !e.type.is_array()) return -1;
+    int array = array_of(*named->symbol);
+    return arrays_.resizable(array) ? array : -1;
+}
+
 std::vector<Lowered> Variables::array_values(const Expr& e) {
     std::vector<Lowered> values;
     if (auto* literal = as_if<ArrayLiteralExpr>(&e)) {

@@ -57,6 +57,8 @@ class Variables {
     void store(const LValue& t, const Lowered& value);
 
     int array_of(const Symbol& symbol);
+    // Of an array's name whose length may change; -1 for what else an argument may be.
+    int resizable_array(const Expr& e);
     Arrays& arrays() { return arrays_; }
     // The value beside a name in a table; 0 if the name is not there.
     Lowered find_named(const NamedTable& table, const std::string& name);

@@ -31,7 +31,8 @@ enum LightUniform {
     kLightCategories = 1,   // int: bit j set where the light matches LoweredShader::categories[j]
     kLightNondiffuse = 2,   // the light's __nondiffuse, 0 if it has none
     kLightNonspecular = 3,  // the light's __nonspecular, 0 if it has none
-    kLightUniforms = 4      // then one int for each of LoweredShader::light_messages: nonzero
+    kLightNumber = 4,       // int: which light it is, for QueryKind::Light
+    kLightUniforms = 5      // then one int for each of LoweredShader::light_messages: nonzero
                             // where the light has that parameter
 };
 
@@ -57,6 +58,7 @@ enum class QueryKind : int32_t {
     Atmosphere,
     Incident,
     Opposite,
+    Light,      // a parameter as it is bound, of the light whose record has the number `point`
     ShaderName  // the name asked for is the shader's kind
 };
 // In place of an element: how many the array has that is asked about, as the first number.

@@ -63,8 +63,9 @@ Expr* HandleCalls::has_method(const CallExpr& e) {
 
 // A light's parameter has the type of the variable.
 Expr* HandleCalls::light_value(CallExpr& e, HandleSet set) {
+    const auto* name = as_if<StringExpr>(e.args[1]);
     if (e.args.size() != 3 || (set & ~(kNullHandle | kLightHandles)))
-        expander_.report(Code::RSL_LIGHT_MEMBER, e.span, as<StringExpr>(*e.args[1]).value);
+        expander_.report(Code::RSL_LIGHT_MEMBER, e.span, name ? name->value : "...");
     Expr* node = TreeBuilder(ast_, e.span).call("light_value", {e.args.begin(), e.args.end()});
     expander_.call(as<CallExpr>(*node));
     return node;
@@ -161,7 +162,8 @@ Expr* HandleCalls::read_by_text(CallExpr& e) {
     bool reads = e.args.size() > 2, own = is_null(*e.args[0]);
     if (own && !units_[expander_.unit_].shader) return vertex_value(e);  // one of several shaders
     std::optional<Type> type = reads ? written_type(*e.args[2]) : std::optional(Type{});
-    if (!type || (set & kLightHandles)) {
+    if (set & kLightHandles) return light_value(e, set);
+    if (!type) {
         expander_.report(Code::RSL_STRING_NOT_CONSTANT, e.span, e.name);
         return make.number(0);
     }

@@ -41,6 +41,15 @@ auto Reference<Real>::storage(const Symbol& named) -> Storage& {
 }
 
 template <class Real>
+int RefCall<Real>::resizable_room(size_t i) const {
+    const auto* named = as_if<VariableExpr>(call.args[i]);
+    if (!named || !named->type.is_array() || named->symbol->type.array_length > 0) return 0;
+    return array_capacities(*eval.layer->shader->ast)[named->symbol->id];
+}
+template int RefCall<float>::resizable_room(size_t) const;
+template int RefCall<double>::resizable_room(size_t) const;
+
+template <class Real>
 void Reference<Real>::declare(const Symbol& symbol) {
     Storage items;
     if (auto* literal = as_if<ArrayLiteralExpr>(symbol.initial)) {

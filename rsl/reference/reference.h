@@ -28,6 +28,7 @@ struct ReferenceLight {
     // What lightsource() finds: numbers by name; it asks for so many.
     std::vector<std::pair<std::string, std::vector<double>>> messages;
     int number = 0;  // for observers
+    int which = 0;   // kLightNumber
     // Whether it is of a category that illuminance names; else by `categories`.
     std::vector<std::pair<std::string, bool>> known_categories;
 };

@@ -102,6 +102,8 @@ struct RefCall {
     Number f(size_t i) const { return args[i].c[0]; }
     Vec<Real> v(size_t i) const { return vec(args[i]); }
     const std::string& text(size_t i) const { return args[i].text(); }
+    // Elements that a resizable array among the arguments has room for; else 0.
+    int resizable_room(size_t i) const;
     void set(Number x) { result.c[0] = x; }
     void set(const Vec<Real>& x) { result.c[0] = x[0], result.c[1] = x[1], result.c[2] = x[2]; }
     void set_output(size_t i, const Vec<Real>& x) { args[i] = {args[i].type, x[0], x[1], x[2]}; }

@@ -191,8 +191,10 @@ LightBindings::LightBindings(const Scene& scene) {
     for (const auto& look : scene.shader_instances) {
         auto& row = bindings_.emplace_back();
         if (look->kind == ShaderInstanceKind::Light) continue;
-        for (const LightSource& light : scene.lights)
-            row.push_back(binding_of(*look, *scene.shader_instances[light.look]));
+        for (size_t l = 0; l < scene.lights.size(); ++l) {
+            row.push_back(binding_of(*look, *scene.shader_instances[scene.lights[l].look]));
+            row.back().light = int32_t(l);
+        }
     }
     asked_.resize(scene.lights.size());
     for (const auto& row : bindings_)

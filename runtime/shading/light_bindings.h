@@ -28,6 +28,7 @@ struct LightNumber {
 
 // What one surface look reads of one light.
 struct LightBinding {
+    int32_t light = 0;  // its number among Scene::lights
     int32_t categories = 0;
     bool seen = true;  // some loop of the look asks for it
     LightNumber nondiffuse, nonspecular;

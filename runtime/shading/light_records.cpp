@@ -79,6 +79,7 @@ const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs&
     uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
     uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.in(pose);
     uniforms[rsl::kLightNonspecular] = binding.nonspecular.in(pose);
+    uniforms[rsl::kLightNumber] = jit::float_of(binding.light);
     for (size_t m = 0; m < binding.known.size(); ++m)
         uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
     return uniforms;

@@ -160,6 +160,12 @@ const ShaderInstance* volume_of(const Asker& asker, bool opposite) {
     return look_at(asker.scene, from_outside != opposite ? surface.exterior : surface.interior);
 }
 
+const ShaderInstance* light_of(const Asker& asker) {
+    const auto& lights = asker.scene.lights;
+    const size_t light = size_t(asker.light);
+    return light < lights.size() ? look_at(asker.scene, lights[light].look) : nullptr;
+}
+
 struct Asked {
     const ShaderInstance* look = nullptr;
     rsl::ShaderKind kind = rsl::ShaderKind::Surface;
@@ -182,6 +188,8 @@ Asked whom(QueryKind kind, const Asker& asker) {
             return {volume_of(asker, false), rsl::ShaderKind::Volume};
         case QueryKind::Opposite:
             return {volume_of(asker, true), rsl::ShaderKind::Volume};
+        case QueryKind::Light:
+            return {light_of(asker), rsl::ShaderKind::Light};
         default:
             return {};
     }
@@ -251,7 +259,7 @@ bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::Shade
 namespace {
 
 // The rows of a call's arguments.
-constexpr int kLanes = jit::kMaxLanes, kAskedRows = 5;
+constexpr int kLanes = jit::kMaxLanes, kAskedRows = 5;  // without `point`
 int32_t integer(const jit::ServiceCall& call, int row, int lane) {
     return jit::bits_of(call.args[row * kLanes + lane]);
 }
@@ -275,7 +283,7 @@ bool ask_the_same(const jit::ServiceCall& call, int first) {
 void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
                   const Grid* grid, const jit::ServiceCall& call) {
     auto answer_at = [&](int lane, Answer& answer) {
-        Asker asker{scene, pose, look, grid};
+        Asker asker{scene, pose, look, grid, 0, integer(call, 5, lane)};
         if (grid) asker.point = std::min(size_t(call.first + lane), grid->count() - 1);
         return answer_question(QueryKind(integer(call, 0, lane)), asker, question_of(call, lane),
                                answer);

@@ -19,7 +19,8 @@ struct Asker {
     const Pose& pose;
     const ShaderInstance& look;
     const Grid* grid = nullptr;
-    size_t point = 0;  // of the grid
+    size_t point = 0;   // of the grid
+    int32_t light = 0;  // QueryKind::Light: among Scene::lights
 
     uint32_t hit() const { return grid->points[point]; }
     bool on_surface() const { return grid && grid->hits.instance[hit()] != kNone; }

@@ -185,6 +185,7 @@ class RunShader {
             uniforms[kLightCategories] = std::bit_cast<float>(light.categories);
             uniforms[kLightNondiffuse] = light.nondiffuse;
             uniforms[kLightNonspecular] = light.nonspecular;
+            uniforms[kLightNumber] = std::bit_cast<float>(int32_t(k));
             for (size_t c = 0; c < kMessages; ++c)
                 uniforms[kLightUniforms + c] = std::bit_cast<float>(light.messages.empty() ? 0 : 1);
             list[k] = {columns.data(), uniforms.data()};

@@ -183,6 +183,7 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
             light.known_categories.emplace_back(lowered.categories[c], (categories >> c & 1) != 0);
         light.nondiffuse = double(record.uniforms[rsl::kLightNondiffuse]);
         light.nonspecular = double(record.uniforms[rsl::kLightNonspecular]);
+        light.which = jit::bits_of(record.uniforms[rsl::kLightNumber]);
         for (size_t k = 0; k < 3; ++k) {
             light.L[k] = double(column(rsl::kLightL + k));
             light.Cl[k] = double(column(rsl::kLightCl + k));

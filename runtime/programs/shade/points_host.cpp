@@ -76,6 +76,13 @@ std::vector<float> answer(const PointsValue& value, char type, int element, int 
     return {first, first + std::ptrdiff_t(width)};
 }
 
+std::optional<PointsValue> found_in(std::initializer_list<const PointsValues*> tables,
+                                    const std::string& name) {
+    for (const PointsValues* table : tables)
+        if (auto found = table->find(name); found != table->end()) return found->second;
+    return std::nullopt;
+}
+
 }  // namespace
 
 PointsHost::PointsHost(const PointSet& points, TextureStore& textures, PointsLights* lights)
@@ -133,16 +140,16 @@ void PointsHost::query(const jit::ServiceCall& call) {
         if (!(call.mask >> lane & 1)) continue;
         rsl::QueryKind kind = rsl::QueryKind(integer(call, 0, lane));
         const std::string& name = rsl::interned(integer(call, 1, lane));
-        for (const PointsValues* values : {&said_of(points_.document(), kind), &known_of(kind)}) {
-            auto found = values->find(name);
-            if (found == values->end()) continue;
-            std::vector<float> numbers = answer(found->second, char(integer(call, 2, lane)),
-                                                integer(call, 3, lane), integer(call, 4, lane));
-            call.results[lane] = jit::float_of(int32_t(!numbers.empty()));
-            for (size_t k = 0; k < numbers.size(); ++k)
-                call.results[(1 + k) * kRow + size_t(lane)] = numbers[k];
-            break;
-        }
+        const std::optional<PointsValue> value =
+            kind == rsl::QueryKind::Light
+                ? (lights_ ? lights_->parameter(integer(call, 5, lane), name) : std::nullopt)
+                : found_in({&said_of(points_.document(), kind), &known_of(kind)}, name);
+        if (!value) continue;
+        std::vector<float> numbers = answer(*value, char(integer(call, 2, lane)),
+                                            integer(call, 3, lane), integer(call, 4, lane));
+        call.results[lane] = jit::float_of(int32_t(!numbers.empty()));
+        for (size_t k = 0; k < numbers.size(); ++k)
+            call.results[(1 + k) * kRow + size_t(lane)] = numbers[k];
     }
 }
 

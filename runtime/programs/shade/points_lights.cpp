@@ -38,6 +38,7 @@ bool takes_message(const rsl::ShaderParameter& parameter, rsl::Type type) {
 std::optional<int> PointsLights::open(const ShadeOptions& options, const PointSet& points) {
     for (const PointsShader& from : points.document().lights) {
         Light& light = *lights_.emplace_back(std::make_unique<Light>());
+        light.number = int32_t(lights_.size() - 1);
         light.from = &from;
         ShadeOptions own = options;
         own.source = from.file;
@@ -71,6 +72,21 @@ bool PointsLights::bind(const ShadeOptions& options, const rsl::LoweredShader& s
         if (!ok) return false;
     }
     return true;
+}
+
+std::optional<PointsValue> PointsLights::parameter(int32_t light, const std::string& name) const {
+    if (light < 0 || size_t(light) >= lights_.size()) return std::nullopt;
+    const Light& asked = *lights_[size_t(light)];
+    auto own = asked.from->parameters.find(name);
+    if (own != asked.from->parameters.end()) return own->second;
+    const rsl::ShaderParameter* parameter =
+        parameter_of(*asked.stack.layers[0].shader, name.c_str());
+    if (!parameter || !parameter->constant) return std::nullopt;
+    const auto& numbers = parameter->constant->numbers;
+    const rsl::Type& type = parameter->type;
+    PointsValue value{{}, {numbers.begin(), numbers.end()}, parameter->constant->strings};
+    if (type.is_array()) value.lengths.push_back(size_t(type.array_length));
+    return value;
 }
 
 double PointsLights::number(const Light& light, const char* name) const {
@@ -191,6 +207,7 @@ void PointsLights::add_records(const Light& light, std::span<float* const> out, 
         uniforms[rsl::kLightCategories] = jit::float_of(categories);
         uniforms[rsl::kLightNondiffuse] = float(number(light, "__nondiffuse"));
         uniforms[rsl::kLightNonspecular] = float(number(light, "__nonspecular"));
+        uniforms[rsl::kLightNumber] = jit::float_of(light.number);
         for (const float*& column : columns) column -= first;
         records.push_back({columns.data(), uniforms});
     }

@@ -24,9 +24,12 @@ class PointsLights {
     jit::RecordSet at_lanes(const PointSet& points, const jit::ServiceCall& call, PointsHost& host,
                             Arena& arena);
     void report(const ShadeOptions& options);
+    // A parameter as it is bound, or its constant default; nothing where light `light` has none.
+    std::optional<PointsValue> parameter(int32_t light, const std::string& name) const;
 
   private:
     struct Light {
+        int32_t number = 0;
         const PointsShader* from = nullptr;
         ShadeSource source;
         PointsStack stack;
