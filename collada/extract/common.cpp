@@ -143,6 +143,16 @@ bool is_grey(const CommonValue& value) {
     return value.source == SlotSource::Value && v[0] == v[1] && v[1] == v[2];
 }
 
+// Exponents of highlights are 1 and more; below that it is a share of 128.
+void mend_shininess(Extraction& x, CommonShading& common) {
+    constexpr double kMost = 128;
+    CommonValue& value = common.slots[size_t(CommonSlot::Shininess)];
+    double& shininess = value.slot.values[0];
+    if (value.source != SlotSource::Value || !(shininess > 0 && shininess < 1)) return;
+    x.diag.report(Code::FX_SHININESS, value.where, shininess, kMost * shininess);
+    shininess *= kMost;
+}
+
 void read_opaque(Link transparent, CommonShading& common) {
     const Attribute* a = transparent.element->attribute("opaque");
     if (!a) return;
@@ -180,6 +190,7 @@ void read_common(Extraction& x, Link profile, uint32_t effect_number, Effect& ef
         common.slots[size_t(row.slot)] = read_slot_value(x, {profile.doc, slot}, ref, effect);
         if (row.slot == CommonSlot::Transparent) read_opaque({profile.doc, slot}, common);
     }
+    mend_shininess(x, common);
     common.emission_is_factor = common.model != CommonModel::Constant &&
                                 is_grey(common[CommonSlot::Emission]) &&
                                 wrote_emit(authoring_tool(x.document(profile.doc)));

@@ -1,6 +1,7 @@
 // collada/extract/transparency.cpp: materials whose opacity the specification's formula makes 0.
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "collada/extract/extract_p.h"
 
@@ -85,16 +86,67 @@ std::vector<bool> bound_transparencies(const SceneData& scene) {
     return bound;
 }
 
+// What is written in numbers lets through some of the light.
+std::optional<double> partial_opacity(const SceneData& scene, const Material& material) {
+    const CommonShading& common = *scene.effects[material.effect].common;
+    if (common[CommonSlot::Transparency].source != SlotSource::Value ||
+        common[CommonSlot::Transparent].source != SlotSource::Value)
+        return std::nullopt;
+    const auto transparency = slot_numbers(scene, material, CommonSlot::Transparency);
+    const auto transparent = slot_numbers(scene, material, CommonSlot::Transparent);
+    const bool by_alpha = common.opaque == Opaque::AOne || common.opaque == Opaque::AZero;
+    const double amount = (*transparency)[0] * (*transparent)[by_alpha ? 3 : 0];
+    const bool zero_hides = common.opaque == Opaque::AZero || common.opaque == Opaque::RgbZero;
+    const double opacity = zero_hides ? 1 - amount : amount;
+    return opacity > kLeastOpacity && opacity < 1 - kLeastOpacity ? std::optional(opacity)
+                                                                  : std::nullopt;
+}
+
+// Where most of a file that write a transparency are invisible, its exporter counts the other way.
+void reverse_the_others(Extraction& x, const std::vector<bool>& fixed) {
+    struct OfDocument {
+        uint32_t invisible = 0, partial = 0;
+    };
+    std::map<uint32_t, OfDocument> counts;
+    auto document_of = [&](const Material& m) { return x.scene.effects[m.effect].document; };
+    auto partial = [&](uint32_t m) -> std::optional<double> {
+        const Material& material = x.scene.materials[m];
+        if (material.effect == kNone || !x.scene.effects[material.effect].common || !fixed[m])
+            return std::nullopt;
+        return partial_opacity(x.scene, material);
+    };
+    for (uint32_t m = 0; m < x.scene.materials.size(); ++m) {
+        const Material& material = x.scene.materials[m];
+        if (material.effect == kNone) continue;
+        OfDocument& count = counts[document_of(material)];
+        count.invisible += material.invisible;
+        count.partial += partial(m).has_value();
+    }
+    for (uint32_t m = 0; m < x.scene.materials.size(); ++m) {
+        Material& material = x.scene.materials[m];
+        const std::optional<double> opacity = partial(m);
+        if (!opacity) continue;
+        const OfDocument& count = counts[document_of(material)];
+        if (count.invisible <= count.partial) continue;
+        material.reversed = true;
+        x.diag.report(Code::FX_TRANSPARENT_REVERSED,
+                      (*x.scene.effects[material.effect].common)[CommonSlot::Transparency].where,
+                      material.id.empty() ? material.name : material.id, 1 - *opacity);
+    }
+}
+
 }  // namespace
 
 void check_transparency(Extraction& x) {
     std::vector<bool> bound = bound_transparencies(x.scene);
+    std::vector<bool> fixed(x.scene.materials.size(), false);  // to what the effect says
     for (uint32_t m = 0; m < x.scene.materials.size(); ++m) {
         Material& material = x.scene.materials[m];
         if (material.effect == kNone || !x.scene.effects[material.effect].common) continue;
         const Effect& effect = x.scene.effects[material.effect];
-        if (effect.rsl || bound[m] || !invisible(x.scene, material)) continue;
-        if (is_animated(x.scene, m)) continue;
+        if (effect.rsl || bound[m] || is_animated(x.scene, m)) continue;
+        fixed[m] = true;
+        if (!invisible(x.scene, material)) continue;
         material.invisible = true;
         const CommonValue& transparent = (*effect.common)[CommonSlot::Transparent];
         bool written = transparent.source != SlotSource::Absent;
@@ -102,6 +154,7 @@ void check_transparency(Extraction& x) {
                       material.id.empty() ? material.name : material.id,
                       kOpaque[size_t(effect.common->opaque)]);
     }
+    reverse_the_others(x, fixed);
 }
 
 }  // namespace kinora::collada

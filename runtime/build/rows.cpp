@@ -21,10 +21,12 @@ void set_rows(Scene& scene) {
         row.body = surface.shape;
         row.kind = shape.kind;
         row.opaque = instance.opaque();
-        row.hide_backfaces = !mesh.double_sided || instance.hide_backfaces;
+        const MeshGroup& group = mesh.groups[surface.group];
+        row.hide_backfaces =
+            !mesh.double_sided || instance.hide_backfaces || group.definition->one_sided;
         const bool deforms = shape.kind == raytrace::GeometryKind::Deforming;
         if (deforms && !shape.vertex_work) row.built_from = mesh.positions;
-        row.triangles = mesh.groups[surface.group].triangles;
+        row.triangles = group.triangles;
         if (instanced)
             row.shape = numbers.try_emplace({shape.mesh, surface.group}, uint32_t(numbers.size()))
                             .first->second;

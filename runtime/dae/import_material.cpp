@@ -206,6 +206,7 @@ constexpr ReadSlot kReadSlots[] = {
 constexpr const char* kShaderOfModel[] = {"collada_constant", "collada_lambert", "collada_phong",
                                           "collada_blinn"};                    // CommonModel
 constexpr const char* kOpaque[] = {"A_ONE", "RGB_ZERO", "A_ZERO", "RGB_ONE"};  // Opaque
+constexpr const char* kReversed[] = {"A_ZERO", "RGB_ONE", "A_ONE", "RGB_ZERO"};
 
 // Only what the shader has a parameter for.
 void add_value(ShaderUse& use, const char* name, ValueSlot value) {
@@ -230,6 +231,11 @@ bool has_map(const ShaderUse& use, const std::string& slot) {
 bool transparent(const collada::CommonShading& common) {
     return common[CommonSlot::Transparent].source != collada::SlotSource::Absent ||
            common[CommonSlot::Transparency].source != collada::SlotSource::Absent;
+}
+
+const char* opaque_mode(const collada::CommonShading& common, bool reversed) {
+    if (!transparent(common)) return "NONE";
+    return (reversed ? kReversed : kOpaque)[size_t(common.opaque)];
 }
 
 }  // namespace
@@ -273,7 +279,9 @@ void ColladaImport::common_material(uint32_t index, const collada::Effect& effec
         double opaque = 0;
         add_value(use, "transparency", {append(&opaque, 1), 1});
     }
-    add_text(use, "opaque", transparent(common) ? kOpaque[size_t(common.opaque)] : "NONE");
+    const bool reversed =
+        data_.materials[index].reversed && options_.transparency == TransparencyMode::Auto;
+    add_text(use, "opaque", opaque_mode(common, reversed));
     if (common[CommonSlot::Bump].source == collada::SlotSource::Texture && has_map(use, "bump")) {
         set_texture(index, common[CommonSlot::Bump], "bump", true, use);
         add_text(use, "bump_kind", common.bump_is_normals ? "NORMALMAP" : "HEIGHTFIELD");

@@ -117,6 +117,7 @@ struct PrimitiveGroup {
     std::string symbol;
     std::vector<uint32_t> triangles;  // position indices, 3 a triangle
     std::vector<VertexAttribute> attributes;
+    bool one_sided = false;  // seen from its front alone, whatever its material says
 };
 
 struct MeshDefinition {

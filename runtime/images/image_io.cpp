@@ -142,7 +142,8 @@ auto png_reader(Image8* rows) {
     };
 }
 
-// Whether the file ends with PNG's last chunk: one that was cut short does not.
+// Whether the file ends with PNG's last chunk: one that was cut short does not. Of pictures of our
+// own, whose rows are not read; those of others may have bytes behind it.
 bool png_has_end(std::FILE* file) {
     constexpr unsigned char kEnd[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
     unsigned char last[sizeof kEnd];
@@ -157,7 +158,7 @@ bool png_has_end(std::FILE* file) {
 template <class Read, class Use>
 bool with_png(const std::string& path, Read read, Use use) {
     OpenFile file = open_regular_file(path);
-    if (!libpng().error().empty() || !file || !png_has_end(file.get())) return false;
+    if (!libpng().error().empty() || !file) return false;
     PngError error;
     png_structp png = libpng().png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, on_png_error,
                                                       on_png_warning);
@@ -228,7 +229,10 @@ std::optional<std::string> read_exr_text(const std::string& path, const std::str
 std::optional<std::string> read_image_text(const std::string& path, const std::string& key) {
     if (has_extension(path, {".exr"})) return read_exr_text(path, key);
     std::optional<std::string> value;
-    with_png(path, png_reader(nullptr),
+    const auto read = [](std::FILE* file, png_structp png, png_infop info) {
+        return png_has_end(file) && png_read(file, png, info, nullptr);
+    };
+    with_png(path, read,
              [&](png_structp png, png_infop info) { value = find_png_text(png, info, key); });
     return value;
 }

@@ -12,6 +12,7 @@
 #include "runtime/load/face_normals.h"
 #include "runtime/load/smooth_normals.h"
 #include "runtime/load/target_normals.h"
+#include "runtime/load/twin_faces.h"
 
 namespace kinora {
 
@@ -46,6 +47,7 @@ std::optional<SceneDescription> import_scene(const std::string& path, const Impo
     double degrees = options.smooth.value_or(gltf ? 0 : kCreaseDegrees);
     if (degrees > 0) smooth_normals(*description, degrees);
     part_normals_by_targets(*description);
+    if (!gltf) part_twin_faces(*description);  // glTF's materials say which sides are seen
     return description;
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "runtime/description/morph_weights.h"
+#include "runtime/load/weld.h"
 
 namespace kinora {
 
@@ -28,21 +29,6 @@ dvec3 unit_or_zero(dvec3 v) {
 
 double corner_angle(dvec3 at, dvec3 b, dvec3 c) {
     return std::acos(std::clamp(glm::dot(unit_or_zero(b - at), unit_or_zero(c - at)), -1.0, 1.0));
-}
-
-// The lowest index of the positions that are equal, for each.
-std::vector<uint32_t> welded(const std::vector<dvec3>& positions) {
-    std::vector<uint32_t> order(positions.size()), result(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    auto key = [&](uint32_t p) {
-        return std::tuple(positions[p].x, positions[p].y, positions[p].z, p);
-    };
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-    for (size_t i = 0; i < order.size(); ++i) {
-        bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        result[order[i]] = same ? result[order[i - 1]] : order[i];
-    }
-    return result;
 }
 
 // The corners of the groups without normals, one behind the other, and the fans they form: those

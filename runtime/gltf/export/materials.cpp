@@ -25,7 +25,8 @@ uint32_t MaterialWriter::write(const MeshUse& use, const PrimitiveGroup& group) 
                                           {"baseColorFactor", {0.8, 0.8, 0.8, 1}}};
     }
     if (!definition.id.empty()) result["name"] = definition.id;
-    bool double_sided = !definition.hide_backfaces && description_.meshes[use.mesh].double_sided;
+    bool double_sided = !definition.hide_backfaces && !group.one_sided &&
+                        description_.meshes[use.mesh].double_sided;
     if (double_sided) result["doubleSided"] = true;
     Json shaders = rsl_.material(look, group);
     bool has_extras = !shaders.empty() && !(is_all && shaders.size() == 1);

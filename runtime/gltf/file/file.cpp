@@ -207,11 +207,15 @@ std::vector<unsigned char> with_json(const std::vector<unsigned char>& bytes, st
 }
 
 void report_indices(const GltfFile& file, const GltfIndices& indices, Diagnostics& diagnostics) {
-    for (const GltfIndexFault& fault : indices.faults)
-        diagnostics
-            .report(Code::GLTF_REFERENCE, Location{file.file, fault.range.begin, fault.range.end},
-                    fault.name, fault.value)
-            .id_path = fault.pointer;
+    for (const GltfIndexFault& fault : indices.faults) {
+        const Location where{file.file, fault.range.begin, fault.range.end};
+        Finding& finding =
+            fault.name ? diagnostics.report(Code::GLTF_REFERENCE, where, fault.name, fault.value)
+                       : diagnostics.report(Code::GLTF_VALUE, where,
+                                            fmt::format("'{}' is no object; it is left out",
+                                                        fault.pointer.substr(1)));
+        finding.id_path = fault.pointer;
+    }
     if (indices.fault_count > indices.faults.size())
         diagnostics.report(Code::GLTF_MORE, gltf_location(file, ""),
                            indices.fault_count - indices.faults.size());

@@ -15,15 +15,18 @@ namespace kinora {
 
 namespace {
 
+constexpr char kObject[] = "object";
+
 struct Row {
     const char* path;
-    const char* list;  // null: the path itself must be a list
+    const char* list;  // null: the path itself must be a list, or an object
     const char* name;
 };
 
 constexpr Row kRows[] = {
 #define INDEX(path, list, name) {path, list, name},
 #define LIST(path) {path, nullptr, nullptr},
+#define OBJECT(path) {path, nullptr, kObject},
 #include "runtime/gltf/file/indices.def"
 };
 
@@ -92,6 +95,11 @@ class IndexWalk {
             const size_t row = size_t(std::countr_zero(left));
             if (row_tokens()[row].size() != path_.size()) continue;
             if (kRows[row].list) return index(kRows[row], begin);
+            if (kRows[row].name) {
+                if (scanner_.peek() != '{') return no_object(begin);
+                below &= ~(RowSet(1) << row);
+                continue;
+            }
             if (scanner_.peek() != '[' && found_.not_a_list.empty()) found_.not_a_list = pointer();
             below &= ~(RowSet(1) << row);
         }
@@ -102,6 +110,12 @@ class IndexWalk {
     bool index(const Row& row, size_t begin) {
         const bool whole = scanner_.skip_value();
         if (whole) check(row, {uint32_t(begin), uint32_t(scanner_.at())});
+        return whole;
+    }
+
+    bool no_object(size_t begin) {
+        const bool whole = scanner_.skip_value();
+        if (whole) replace({uint32_t(begin), uint32_t(scanner_.at())}, nullptr, "{}");
         return whole;
     }
 
@@ -152,11 +166,16 @@ class IndexWalk {
         if (error == std::errc() && rest == text.data() + text.size() &&
             number < list_size(row.list))
             return;
+        replace(range, row.name, kNoGltfIndex);
+    }
+
+    void replace(JsonRange range, const char* name, std::string_view with) {
+        const std::string_view text = json_.substr(range.begin, range.end - range.begin);
         if (found_.fault_count++ < kMaxGltfFindings)
             found_.faults.push_back(
-                {pointer(), row.name, std::string(text.substr(0, kQuotedValue)), range});
+                {pointer(), name, std::string(text.substr(0, kQuotedValue)), range});
         found_.mended += json_.substr(copied_, range.begin - copied_);
-        found_.mended += kNoGltfIndex;
+        found_.mended += with;
         copied_ = range.end;
     }
 

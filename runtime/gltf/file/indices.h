@@ -10,10 +10,10 @@
 
 namespace kinora {
 
-// A value that should be an index and names nothing.
+// A value that should be an index and names nothing, or an object and is none.
 struct GltfIndexFault {
     std::string pointer;
-    const char* name;   // of what it should be: "node"
+    const char* name;   // of what it should be the index of: "node"; null: an object
     std::string value;  // as written
     JsonRange range;
 };
@@ -22,7 +22,7 @@ struct GltfIndices {
     std::string not_a_list;              // pointer to what should be an array and is not, or ""
     std::vector<GltfIndexFault> faults;  // the first kMaxGltfFindings
     size_t fault_count = 0;
-    // The text, with kNoGltfIndex for each faulty value; "" if there is none.
+    // The text, with kNoGltfIndex or {} for each faulty value; "" if there is none.
     std::string mended;
 };
 

@@ -149,6 +149,24 @@ void NodeImporter::import_content(uint32_t node) {
     if (has_index(from.mesh, model_.meshes.size())) to.meshes.push_back(mesh_use(node));
 }
 
+// Maps on coordinates that a group lacks take those of its lowest set (texture_coordinates()).
+void NodeImporter::report_missing_sets(uint32_t mesh, const PrimitiveGroup& from,
+                                       const MaterialUse& use) {
+    const VertexAttribute* lowest = find_attribute(from, "TEXCOORD");
+    if (!lowest) return;
+    for (const ShaderUse& shader : out_.materials[use.material].surfaces)
+        for (const ParamSource& source : shader.params) {
+            if (source.texcoord.empty()) continue;
+            const VertexBinding* bound = find_binding(&use, source.texcoord);
+            if (!bound || find_attribute(from, bound->semantic, bound->set)) continue;
+            if (told_sets_.insert({mesh, use.material}).second)
+                report_.add(Code::GLTF_VALUE, fmt::format("/meshes/{}", mesh),
+                            fmt::format("mesh {} has no {} for material {}; TEXCOORD_{} is taken",
+                                        mesh, source.texcoord, use.material, lowest->set));
+            return;
+        }
+}
+
 // What a node wears: its mesh, the materials of all its groups, skin and morph.
 MeshUse NodeImporter::mesh_use(uint32_t node) {
     const tinygltf::Node& from = model_.nodes[node];
@@ -166,6 +184,7 @@ MeshUse NodeImporter::mesh_use(uint32_t node) {
         std::span<const VertexBinding> inputs = materials_.vertex_inputs(material.material);
         material.vertex_bindings.insert(material.vertex_bindings.end(), inputs.begin(),
                                         inputs.end());
+        report_missing_sets(use.mesh, group, material);
     }
     use.morph = slots_[node].morph =
         morphs_.morph_of(use.mesh, node, moving_[node] & kMovesWeights);

@@ -1,7 +1,9 @@
 // runtime/gltf/import/nodes.h: glTF's nodes with what hangs on them.
 #pragma once
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/gltf/import/materials.h"
@@ -32,6 +34,7 @@ class NodeImporter {
     void import_visibility(uint32_t node);
     void import_content(uint32_t node);
     MeshUse mesh_use(uint32_t node);
+    void report_missing_sets(uint32_t mesh, const PrimitiveGroup& group, const MaterialUse& use);
 
     const tinygltf::Model& model_;
     const GltfNodeTree& tree_;
@@ -42,7 +45,8 @@ class NodeImporter {
     SkinImporter& skins_;
     GltfReport& report_;
     SceneDescription& out_;
-    std::vector<NodeSlots> slots_;  // per node
+    std::vector<NodeSlots> slots_;                       // per node
+    std::set<std::pair<uint32_t, uint32_t>> told_sets_;  // of a mesh and a material
 };
 
 }  // namespace kinora

@@ -146,6 +146,35 @@ TEST(GltfIndices, ASceneWithoutAnyOfItsNodesIsRefused) {
         }
 }
 
+TEST(GltfIndices, WhatIsNoObjectIsLeftOutWithAWord) {
+    GltfText g;
+    g.node({{"mesh", g.square(g.material({{"name", "red"}}))}});
+    for (const char* member : {"pbrMetallicRoughness", "normalTexture", "extensions"})
+        for (const json& wrong : {json("text"), json::array({"text"}), json(4), json(true)}) {
+            GltfText changed = g;
+            changed.json["materials"][0][member] = wrong;
+            auto d = described(changed.gltf(), ".gltf");
+            ASSERT_TRUE(d->scene) << d->findings();
+            EXPECT_EQ(d->count("GLTF_VALUE"), 1) << member << wrong << d->findings();
+            EXPECT_NE(d->findings().find("is no object"), std::string::npos);
+            EXPECT_EQ(d->scene->materials.size(), 1u);
+        }
+}
+
+TEST(GltfIndices, ACoordinateSetThatAMeshLacksIsTold) {
+    GltfText g;
+    const int map = g.texture(1, 1, {1, 2, 3, 255}, json::object());
+    const int red = g.material(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", map}, {"texCoord", 1}}}}}});
+    const int mesh = g.square(red);
+    g.node({{"mesh", mesh}});
+    g.node({{"mesh", mesh}});
+    auto d = described(g.glb());
+    ASSERT_TRUE(d->scene) << d->findings();
+    EXPECT_EQ(d->count("GLTF_VALUE"), 1) << d->findings();
+    EXPECT_NE(d->findings().find("no TEXCOORD_1"), std::string::npos) << d->findings();
+}
+
 // In a .glb the JSON becomes longer than its chunk was.
 TEST(GltfIndices, AnIndexOfAGlbThatNamesNothingLeavesTheRest) {
     GltfText g;

@@ -163,6 +163,18 @@ TEST_F(TextureFiles, AFileTheReaderFoundMissingIsNotReportedAgain) {
     EXPECT_EQ(diagnostics.findings().size(), 1u);
 }
 
+TEST_F(TextureFiles, BytesBehindTheLastChunkOfAPngAreNoDamage) {
+    std::string whole = png("whole.png", 32, 32, 99);
+    std::ifstream in(whole, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    TextureImage image, padded;
+    EXPECT_EQ(read_texture_image(whole, image), "");
+    EXPECT_EQ(read_texture_image(file("padded.png", bytes + std::string(3, '\0')), padded), "");
+    EXPECT_EQ(image.bytes, padded.bytes);
+    TextureImage cut;
+    EXPECT_NE(read_texture_image(file("cut.png", bytes.substr(0, bytes.size() - 12)), cut), "");
+}
+
 TEST_F(TextureFiles, DamagedFilesSayWhy) {
     std::string whole = png("whole.png", 32, 32, 99);
     std::ifstream in(whole, std::ios::binary);

@@ -1,5 +1,5 @@
 // tests/runtime/load/normals_test.cpp: normals of meshes that have none, and of morphs whose
-// targets have more than their base.
+// targets have more than their base; faces painted on both sides.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "runtime/build/shapes/mesh.h"
 #include "runtime/load/smooth_normals.h"
 #include "runtime/load/target_normals.h"
+#include "runtime/load/twin_faces.h"
 
 namespace kinora {
 namespace {
@@ -188,6 +189,50 @@ TEST(TargetNormals, OfOtherCornersDoNotCount) {
     SceneDescription description = square_and_target({0, 1, 2});
     part_normals_by_targets(description);
     EXPECT_EQ(description.meshes[0].groups[0].attributes[0].values.size(), 3u);
+}
+
+// ---- faces that lie on others
+
+// Two triangles of one material; the first is there once more, the other way round.
+MeshDefinition painted_on_both_sides(const std::string& other) {
+    MeshDefinition mesh =
+        mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, {0, 1, 2, 0, 2, 3});
+    mesh.groups[0].symbol = "front";
+    mesh.groups[0].attributes = {{"TEXCOORD", 0, 2, {0, 0, 1, 1}, {0, 1, 0, 1, 0, 1}}};
+    PrimitiveGroup& back = mesh.groups.emplace_back();
+    back.symbol = other;
+    back.triangles = {2, 1, 4};  // 4 lies where 0 does
+    return mesh;
+}
+
+MeshDefinition parted(MeshDefinition mesh) {
+    SceneDescription description;
+    description.meshes.push_back(std::move(mesh));
+    part_twin_faces(description);
+    return std::move(description.meshes[0]);
+}
+
+TEST(TwinFaces, OfTwoMaterialsAreSeenFromTheirFrontAlone) {
+    const MeshDefinition mesh = parted(painted_on_both_sides("back"));
+    ASSERT_EQ(mesh.groups.size(), 3u);
+    EXPECT_TRUE(mesh.groups[0].one_sided);
+    EXPECT_EQ(mesh.groups[0].triangles, (std::vector<uint32_t>{0, 1, 2}));
+    EXPECT_EQ(mesh.groups[0].attributes[0].corners, (std::vector<uint32_t>{0, 1, 0}));
+    EXPECT_TRUE(mesh.groups[1].one_sided);
+    // The triangle without a twin keeps both sides, and its corners.
+    EXPECT_FALSE(mesh.groups[2].one_sided);
+    EXPECT_EQ(mesh.groups[2].symbol, "front");
+    EXPECT_EQ(mesh.groups[2].triangles, (std::vector<uint32_t>{0, 2, 3}));
+    EXPECT_EQ(mesh.groups[2].attributes[0].corners, (std::vector<uint32_t>{1, 0, 1}));
+}
+
+TEST(TwinFaces, OfOneMaterialOrTurnedAlikeStayAsTheyAre) {
+    EXPECT_EQ(parted(painted_on_both_sides("front")).groups.size(), 2u);
+    MeshDefinition alike = painted_on_both_sides("back");
+    alike.groups[1].triangles = {4, 1, 2};
+    alike = parted(alike);
+    EXPECT_EQ(alike.groups.size(), 2u);
+    EXPECT_FALSE(alike.groups[0].one_sided);
 }
 
 }  // namespace
