@@ -73,7 +73,8 @@ class Key {
         }
         for (const Inst& inst : function.insts)
             for (Value arg : function.args_of(inst)) add(arg);
-        for (const ArrayInfo& array : function.arrays) add(array.type), add(array.length);
+        for (const ArrayInfo& array : function.arrays)
+            add(array.type), add(array.length), add(array.cleared);
     }
     void add_inst(const Inst& inst) {
         const uint32_t words[] = {static_cast<uint32_t>(inst.op) |

@@ -10,19 +10,19 @@ using asmjit::arm::ShiftOp;
 
 void Arrays::zero() {
     const FrameLayout& layout = cursor_.code().layout;
-    if (layout.arrays.empty()) return;
-    // They lie behind each other, so one fill does.
-    int32_t bytes = layout.bytes - layout.arrays[0];
+    if (layout.cleared.empty()) return;
     Vec zero = Operands::scratch(0);
-    Label again = a_.newLabel();
     operands_.zero(zero);
-    operands_.add_offset(arm::x0, kStack, layout.arrays[0]);
-    a_.mov(arm::w1, bytes / kRow);
-    a_.bind(again);
-    for (int32_t k = 0; k < kRow; k += 2 * kVector) a_.stp(zero, zero, arm::ptr(arm::x0, k));
-    a_.add(arm::x0, arm::x0, kRow);
-    a_.sub(arm::w1, arm::w1, 1);
-    a_.cbnz(arm::w1, again);
+    for (const FrameLayout::Range& range : layout.cleared) {
+        Label again = a_.newLabel();
+        operands_.add_offset(arm::x0, kStack, range.begin);
+        a_.mov(arm::w1, (range.end - range.begin) / kRow);
+        a_.bind(again);
+        for (int32_t k = 0; k < kRow; k += 2 * kVector) a_.stp(zero, zero, arm::ptr(arm::x0, k));
+        a_.add(arm::x0, arm::x0, kRow);
+        a_.sub(arm::w1, arm::w1, 1);
+        a_.cbnz(arm::w1, again);
+    }
 }
 
 int32_t Arrays::length() const {

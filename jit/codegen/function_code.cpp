@@ -59,6 +59,18 @@ bool FunctionCode::is_zero(Value v) const {
     return (op == Op::ConstF || op == Op::ConstI || op == Op::ConstM) && inst(v).imm == 0;
 }
 
+// What else lies in the first and last row may be cleared, too.
+void FrameLayout::clear(int32_t at, size_t size) {
+    if (size == 0) return;
+    const int32_t begin = at / kRow * kRow;
+    const int32_t end =
+        static_cast<int32_t>((static_cast<size_t>(at) + size + kRow - 1) / kRow) * kRow;
+    if (!cleared.empty() && begin <= cleared.back().end)
+        cleared.back().end = std::max(cleared.back().end, end);
+    else
+        cleared.push_back({begin, end});
+}
+
 void FunctionCode::lay_out(int lanes) {
     auto round_up = [](size_t bytes) { return (bytes + kRow - 1) / kRow * kRow; };
     auto offset = [&] { return static_cast<int32_t>(std::min(frame_bytes, kMostFrameBytes)); };
@@ -83,8 +95,9 @@ void FunctionCode::lay_out(int lanes) {
     layout.slices_left = layout.counters + static_cast<int32_t>(4 * most.loops);
     layout.service_args = take(most.args * kRow);
     layout.service_results = take(most.results * kRow);
-    for (const ArrayInfo& array : function.arrays) {  // one behind the other: one fill zeroes them
+    for (const ArrayInfo& array : function.arrays) {
         layout.arrays.push_back(offset());
+        layout.clear(offset(), static_cast<size_t>(array.cleared) * lane_bytes);
         frame_bytes += static_cast<size_t>(array.length) * lane_bytes;
     }
     frame_bytes = round_up(frame_bytes);

@@ -34,7 +34,15 @@ struct FrameLayout {
     int32_t slices_left = 0;           // of loops by depth, where any has slices
     int32_t service_args = 0, service_results = 0;
     std::vector<int32_t> arrays;
+    // What is cleared where the function is entered, in whole rows.
+    struct Range {
+        int32_t begin, end;
+    };
+    std::vector<Range> cleared;
     int32_t bytes = 0;
+
+    // Behind what was cleared before.
+    void clear(int32_t at, size_t size);
 };
 
 // Nothing changes after construction. Frame size is known before code is written, which is done for

@@ -388,7 +388,7 @@ void run_function(const Frame& frame) {
     for (const ArrayInfo& array : function.arrays) {
         auto index = static_cast<size_t>(&array - function.arrays.data());
         Row* rows = frame.rows + frame.code.array_row[index];
-        std::memset(rows, 0, sizeof(Row) * static_cast<size_t>(array.length));
+        std::memset(rows, 0, sizeof(Row) * static_cast<size_t>(array.cleared));
     }
     const StepTable& table = steps();
     for (Value at = 0; at != kNone;) {

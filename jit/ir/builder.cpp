@@ -275,9 +275,10 @@ int Builder::declare_service(const ServiceInfo& info) {
     return static_cast<int>(module_->services.size() - 1);
 }
 
-int Builder::declare_array(std::string name, Type type, int length) {
+int Builder::declare_array(std::string name, Type type, int length, int cleared) {
     CHECK_GT(length, 0);
-    function().arrays.push_back({std::move(name), type, length});
+    function().arrays.push_back(
+        {std::move(name), type, length, cleared < 0 ? length : std::min(cleared, length)});
     return static_cast<int>(function().arrays.size() - 1);
 }
 

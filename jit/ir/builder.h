@@ -109,7 +109,8 @@ class Builder {
     std::vector<Value> call(size_t function_index, Value mask, std::span<const Value> args);
     std::vector<Value> service(int slot, Value mask, std::span<const Value> args);
     int declare_service(const ServiceInfo& info);  // slot; the same name gives the same slot
-    int declare_array(std::string name, Type type, int length);
+    // `cleared`: ArrayInfo::cleared; all elements unless it is given.
+    int declare_array(std::string name, Type type, int length, int cleared = -1);
     int fault_site(Location where, std::string message);  // index in Module::fault_sites
     void fault(int site, Value mask);
     void output(OutputInfo info, Value value);  // kernel only; finish() writes the Return

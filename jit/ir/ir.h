@@ -69,11 +69,13 @@ struct Inst {
 };
 static_assert(sizeof(Inst) == 32);
 
-// A local array of `length` elements for each lane.
+// A local array of `length` elements for each lane. Where the function is entered the first
+// `cleared` are 0; others hold anything until they are stored.
 struct ArrayInfo {
     std::string name;
     Type type;
     int32_t length;
+    int32_t cleared = length;
 };
 
 struct Function {

@@ -1,4 +1,5 @@
 // jit/ir/parse.cpp: reads the text that print.cpp writes.
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <unordered_map>
@@ -213,10 +214,12 @@ class Parser {
 
     void parse_line(Function& f) {
         if (accept("array ")) {
-            ArrayInfo array;
+            ArrayInfo array{};
             array.name = string();
             array.type = type();
-            array.length = number<int32_t>();
+            array.length = array.cleared = number<int32_t>();
+            if (accept(" cleared "))
+                array.cleared = std::clamp(number<int32_t>(), 0, std::max(array.length, 0));
             return f.arrays.push_back(std::move(array));
         }
         bool named_value = accept("%");

@@ -91,8 +91,9 @@ void print_function(Out out, const Function& f) {
     fmt::format_to(out, "function {} {} -> {}\n", in_quotes(f.name), types_text(f.params),
                    types_text(f.results));
     for (const ArrayInfo& array : f.arrays)
-        fmt::format_to(out, "  array {} {} {}\n", in_quotes(array.name), type_name(array.type),
-                       array.length);
+        fmt::format_to(
+            out, "  array {} {} {}{}\n", in_quotes(array.name), type_name(array.type), array.length,
+            array.cleared < array.length ? fmt::format(" cleared {}", array.cleared) : "");
     size_t depth = 1;
     for (Value v = 0; v < f.insts.size(); ++v) {
         Op op = f.insts[v].op;

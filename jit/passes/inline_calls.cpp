@@ -48,7 +48,7 @@ class Inliner {
     bool worth_it(size_t callee) const {
         const Function& function = m_.functions[callee];
         int64_t elements = 0;
-        for (const ArrayInfo& array : function.arrays) elements += array.length;
+        for (const ArrayInfo& array : function.arrays) elements += array.cleared;
         if (elements > kMaxClearedElements || cyclic_[callee]) return false;
         return sites_[callee] == 1 || function.insts.size() < kSmall;
     }
@@ -102,7 +102,7 @@ class Inliner {
         for (Value arg : args) r.function.args.push_back(names[arg]);
     }
 
-    // A function's arrays are zero at each entry; the caller's only at its own.
+    // A function's arrays are cleared at each entry; the caller's only at its own.
     static void clear_arrays(Rewrite& r, const Function& callee, int32_t first_array) {
         if (callee.arrays.empty()) return;
         Value all = r.append({.op = Op::ConstM, .type = Type::M, .imm = 1});
@@ -112,7 +112,7 @@ class Inliner {
             if (planted(PlantedFault::InlinedArraysKept)) continue;
             Value zero = r.append(
                 {.op = array.type == Type::F ? Op::ConstF : Op::ConstI, .type = array.type});
-            for (int32_t i = 0; i < array.length; ++i) {
+            for (int32_t i = 0; i < array.cleared; ++i) {
                 Value index = r.append({.op = Op::ConstI, .type = Type::I, .imm = i});
                 r.append({.op = Op::ArrayStore,
                           .a = index,

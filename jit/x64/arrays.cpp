@@ -7,20 +7,20 @@ namespace kinora::jit::x64 {
 
 void Arrays::zero() {
     const FrameLayout& layout = cursor_.code().layout;
-    if (layout.arrays.empty()) return;
-    // They lie behind each other, so one fill does.
-    int32_t bytes = layout.bytes - layout.arrays[0];
+    if (layout.cleared.empty()) return;
     x86::Vec zero = operands_.scratch(0);
-    Label again = a_.newLabel();
     a_.vxorps(Operands::xmm(zero), Operands::xmm(zero), Operands::xmm(zero));
-    a_.lea(x86::rax, operands_.row(layout.arrays[0]));
-    a_.mov(x86::ecx, bytes / kRow);
-    a_.bind(again);
-    a_.emit(Id::kIdVmovaps, x86::ptr(x86::rax), zero);
-    if (!isa_.wide) a_.emit(Id::kIdVmovaps, x86::ptr(x86::rax, 32), zero);
-    a_.add(x86::rax, kRow);
-    a_.dec(x86::ecx);
-    a_.jnz(again);
+    for (const FrameLayout::Range& range : layout.cleared) {
+        Label again = a_.newLabel();
+        a_.lea(x86::rax, operands_.row(range.begin));
+        a_.mov(x86::ecx, (range.end - range.begin) / kRow);
+        a_.bind(again);
+        a_.emit(Id::kIdVmovaps, x86::ptr(x86::rax), zero);
+        if (!isa_.wide) a_.emit(Id::kIdVmovaps, x86::ptr(x86::rax, 32), zero);
+        a_.add(x86::rax, kRow);
+        a_.dec(x86::ecx);
+        a_.jnz(again);
+    }
 }
 
 int32_t Arrays::length() const {

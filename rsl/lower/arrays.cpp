@@ -38,27 +38,36 @@ bool Arrays::check_size(const Symbol& symbol, Type type) {
     return bytes_ <= kMostArrayBytes;
 }
 
-int Arrays::add(const Symbol& symbol, Type type, bool in_memory) {
+int Arrays::add_in_memory(const Symbol& symbol, Type type, int cleared) {
     bool fits = check_size(symbol, type);
     Array array;
     array.element = type.base;
     array.length = fits ? std::max(type.array_length, 1) : 1;
-    if (in_memory) {
-        for (int c = 0; c < component_count(type.base); ++c)
-            array.memory.push_back(
-                b_.declare_array(std::string(symbol.name), ir_type(type.base), array.length));
-    } else {
-        for (int k = 0; k < array.length; ++k) {
-            int slot = slots_.add(zero(e_, type.base));
-            if (k == 0) array.first_slot = slot;
-        }
+    for (int c = 0; c < component_count(type.base); ++c)
+        array.memory.push_back(
+            b_.declare_array(std::string(symbol.name), ir_type(type.base), array.length, cleared));
+    arrays_.push_back(std::move(array));
+    return int(arrays_.size()) - 1;
+}
+
+int Arrays::add(const Symbol& symbol, Type type, bool in_memory) {
+    if (in_memory) return add_in_memory(symbol, type, std::max(type.array_length, 1));
+    bool fits = check_size(symbol, type);
+    Array array;
+    array.element = type.base;
+    array.length = fits ? std::max(type.array_length, 1) : 1;
+    for (int k = 0; k < array.length; ++k) {
+        int slot = slots_.add(zero(e_, type.base));
+        if (k == 0) array.first_slot = slot;
     }
     arrays_.push_back(std::move(array));
     return int(arrays_.size()) - 1;
 }
 
+// Its elements are stored before their number says that they are there. The first is read where
+// there is none.
 int Arrays::add_resizable(const Symbol& symbol, BaseType element, int capacity) {
-    int array = add(symbol, {element, std::max(capacity, 1)}, true);
+    int array = add_in_memory(symbol, {element, std::max(capacity, 1)}, 1);
     arrays_[size_t(array)].count_slot = slots_.add(lowered(BaseType::Float, b_.f(0)));
     return array;
 }

@@ -66,6 +66,8 @@ class Arrays {
         std::vector<int> inputs;  // first input of each component: a parameter never written
     };
     bool check_size(const Symbol& symbol, Type type);
+    // The first `cleared` elements are 0 at first.
+    int add_in_memory(const Symbol& symbol, Type type, int cleared);
     template <class Body>
     void for_range(Value first, Value end, Location where, Body&& body);
 

@@ -303,6 +303,29 @@ TEST(TargetKernel, PlacesFarFromTheirBase) {
     expect_same(m, in);
 }
 
+// What is not cleared is what was stored, behind frames that are full of other numbers.
+TEST(TargetKernel, ArraysAreClearedAsFarAsTheySay) {
+    constexpr int kLength = 40, kCleared[] = {1, 0, 40, 3};
+    Module m = one_function();
+    Builder b(m, 0);
+    Value x = b.input(point("x")), sum = b.f(0), mixed = x;
+    for (int cleared : kCleared) {
+        int array = b.declare_array("a" + std::to_string(cleared), Type::F, kLength, cleared);
+        for (int k = 0; k < cleared; ++k)
+            sum = b.add(sum, b.op(Op::ArrayLoad, b.i(k), kNone, kNone, array));
+        for (int k = 0; k < kLength; ++k)
+            b.op(Op::ArrayStore, b.i(k), b.add(x, b.f(float(k))), b.m(true), array);
+        Value last = b.op(Op::ArrayLoad, b.i(kLength - 1), kNone, kNone, array);
+        mixed = b.fma(mixed, b.f(0.5f), last);
+    }
+    b.output({"sum", Type::F}, sum);
+    b.output({"mixed", Type::F}, mixed);
+    b.finish();
+    EXPECT_NE(print(m).find("f 40 cleared 1\n"), std::string::npos) << print(m);
+    EXPECT_NE(print(m).find("f 40\n"), std::string::npos) << print(m);
+    for (int again = 0; again < 2; ++again) expect_same(m, wave(33, 2));
+}
+
 // 2^32 bytes and more of arrays, which 32 bits would hold as few.
 TEST(TargetKernel, FramesBeyondReachGiveNoKernelAndTellTheInterpreterTheirSize) {
     Module m = one_function();
