@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "runtime/gltf/curves/channels.h"
-#include "runtime/gltf/curves/reduce_keys.h"
+#include "runtime/curves/channels.h"
+#include "runtime/curves/reduce_keys.h"
 #include "runtime/gltf/curves/takes.h"
 #include "runtime/gltf/document/buffer_writer.h"
 #include "runtime/gltf/document/loss_report.h"

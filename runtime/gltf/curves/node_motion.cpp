@@ -10,7 +10,7 @@ namespace kinora {
 
 NodeMotion::NodeMotion(const SceneDescription& description, std::span<const Take> takes,
                        CurveWriter& curves)
-    : description_(description), takes_(takes), curves_(curves), values_(description.values) {}
+    : description_(description), takes_(takes), curves_(curves), values_(description) {}
 
 bool NodeMotion::is_moved(std::span<const Transform> stack) const {
     return std::any_of(takes_.begin(), takes_.end(), [&](const Take& take) {

@@ -1,4 +1,4 @@
-// runtime/gltf/curves/reduce_keys.h: keys whose straight pieces follow a curve within a tolerance.
+// runtime/curves/reduce_keys.h: keys whose straight pieces follow a curve within a tolerance.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// runtime/gltf/curves/reduce_keys.cpp: keys whose straight pieces follow a curve within a
+// runtime/curves/reduce_keys.cpp: keys whose straight pieces follow a curve within a
 // tolerance.
-#include "runtime/gltf/curves/reduce_keys.h"
+#include "runtime/curves/reduce_keys.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,12 @@
-// runtime/gltf/curves/channels.cpp: the channels that move some numbers, and when.
-#include "runtime/gltf/curves/channels.h"
+// runtime/curves/channels.cpp: the channels that move some numbers, and when.
+#include "runtime/curves/channels.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/curves/reduce_keys.h"
+#include "runtime/description/display_color.h"
 #include "runtime/description/play_range.h"
-#include "runtime/gltf/curves/reduce_keys.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {
@@ -13,6 +14,17 @@ namespace kinora {
 namespace {
 
 constexpr double kLargestTurn = 90;  // degrees between keys: slerp takes the shorter way
+
+// Whether a channel writes any of `count` values.
+bool writes(const anim::Channel& c, uint32_t first_value, uint32_t count) {
+    uint32_t end = c.slot + (c.count - 1) * c.slot_step + 1;
+    return c.slot < first_value + count && end > first_value;
+}
+
+bool writes_any(const std::vector<MovingChannel>& channels, uint32_t first_value, uint32_t count) {
+    return std::ranges::any_of(
+        channels, [&](const MovingChannel& c) { return writes(*c.channel, first_value, count); });
+}
 
 }  // namespace
 
@@ -33,6 +45,12 @@ void ValuesAtTime::evaluate(const std::vector<MovingChannel>& channels, double t
             anim::evaluate(*c.sampler, time, to.component + i,
                            {&values_[to.slot + i * to.slot_step], 1});
     }
+    for (const MovingColor& color : colors_) {
+        if (!writes_any(channels, color.display, 3)) continue;
+        const double* display = &values_[color.display];
+        dvec3 linear = linear_of_display({display[0], display[1], display[2]});
+        for (int k = 0; k < 3; ++k) values_[color.linear + uint32_t(k)] = linear[k];
+    }
 }
 
 void ValuesAtTime::to_rest(const std::vector<MovingChannel>& channels) {
@@ -41,6 +59,30 @@ void ValuesAtTime::to_rest(const std::vector<MovingChannel>& channels) {
             uint32_t slot = c.channel->slot + i * c.channel->slot_step;
             values_[slot] = rest_[slot];
         }
+    for (const MovingColor& color : colors_)
+        if (writes_any(channels, color.display, 3))
+            std::copy_n(&rest_[color.linear], 3, &values_[color.linear]);
+}
+
+ValueSlot written_slot(const SceneDescription& description, ValueSlot slot) {
+    for (const MovingColor& color : description.moving_colors)
+        if (slot.present() && color.linear == slot.offset) return {color.display, slot.count};
+    return slot;
+}
+
+std::vector<MovingChannel> channels_of(const SceneDescription& description,
+                                       const anim::Animation& animation,
+                                       std::span<const ValueSlot> slots) {
+    std::vector<MovingChannel> result;
+    for (const anim::Channel& c : animation.channels) {
+        const anim::Sampler& sampler = animation.samplers[c.sampler];
+        bool moves = std::ranges::any_of(slots, [&](ValueSlot slot) {
+            ValueSlot written = written_slot(description, slot);
+            return slot.present() && writes(c, written.offset, written.count);
+        });
+        if (moves && !sampler.empty()) result.push_back({&sampler, &c});
+    }
+    return result;
 }
 
 std::vector<MovingChannel> channels_of(const anim::Animation& animation, uint32_t first_value,
@@ -48,9 +90,7 @@ std::vector<MovingChannel> channels_of(const anim::Animation& animation, uint32_
     std::vector<MovingChannel> result;
     for (const anim::Channel& c : animation.channels) {
         const anim::Sampler& sampler = animation.samplers[c.sampler];
-        uint32_t end = c.slot + (c.count - 1) * c.slot_step + 1;
-        if (c.slot < first_value + count && end > first_value && !sampler.empty())
-            result.push_back({&sampler, &c});
+        if (writes(c, first_value, count) && !sampler.empty()) result.push_back({&sampler, &c});
     }
     return result;
 }

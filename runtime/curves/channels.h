@@ -1,4 +1,4 @@
-// runtime/gltf/curves/channels.h: the channels that move some numbers, and when.
+// runtime/curves/channels.h: the channels that move some numbers, and when.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,15 @@ std::vector<MovingChannel> channels_of(const anim::Animation& animation, uint32_
 std::vector<MovingChannel> channels_of(const anim::Animation& animation,
                                        std::span<const Transform> stack);
 
+// Where the numbers of a slot stand that channels write: a display color's own, where the slot has
+// it decoded.
+ValueSlot written_slot(const SceneDescription& description, ValueSlot slot);
+
+// Those that move any number of these slots.
+std::vector<MovingChannel> channels_of(const SceneDescription& description,
+                                       const anim::Animation& animation,
+                                       std::span<const ValueSlot> slots);
+
 // The times as the file holds them, as floats, each later than the one before.
 std::vector<double> distinct_times(std::vector<double> times);
 
@@ -29,10 +38,11 @@ std::vector<double> key_times(std::span<const Transform> stack,
                               const std::vector<MovingChannel>& channels,
                               const SceneDescription& description);
 
-// A description's values at any time, as channels move them.
+// A description's values at any time, as channels move them, with the colors decoded from them.
 class ValuesAtTime {
   public:
-    explicit ValuesAtTime(const std::vector<double>& rest) : rest_(rest), values_(rest) {}
+    explicit ValuesAtTime(const SceneDescription& description)
+        : rest_(description.values), values_(rest_), colors_(description.moving_colors) {}
 
     void evaluate(const std::vector<MovingChannel>& channels, double time);
     // Back to where nothing moves, for whoever evaluates next.
@@ -43,6 +53,7 @@ class ValuesAtTime {
   private:
     const std::vector<double>& rest_;
     std::vector<double> values_;
+    const std::vector<MovingColor>& colors_;
 };
 
 // before * the matrices of the stack.
