@@ -1,5 +1,7 @@
-// runtime/gltf/curves/curve_writer.cpp: curves of nodes as glTF's channels and samplers.
+// runtime/gltf/curves/curve_writer.cpp: curves as glTF's channels and samplers.
 #include "runtime/gltf/curves/curve_writer.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,7 @@ struct CurveExtent {
     double moves = 0, size = 0;
 };
 
-CurveExtent extent_of(const NodeCurve& curve, const std::vector<double>& first) {
+CurveExtent extent_of(const PropertyCurve& curve, const std::vector<double>& first) {
     CurveExtent extent;
     std::vector<double> now(curve.width);
     auto look = [&](double time) {
@@ -31,14 +33,27 @@ CurveExtent extent_of(const NodeCurve& curve, const std::vector<double>& first) 
     return extent;
 }
 
+Json target_of(uint32_t node, const PropertyCurve& curve) {
+    if (!curve.is_pointer()) return {{"node", node}, {"path", curve.name}};
+    return {{"path", "pointer"}, {"extensions", {{kAnimationPointer, {{"pointer", curve.name}}}}}};
+}
+
+// A number, or a list of them.
+std::vector<double> numbers_of(const Json& value) {
+    return value.is_number() ? std::vector<double>{value.get<double>()}
+                             : value.get<std::vector<double>>();
+}
+
 }  // namespace
 
 struct CurveWriter::Output {
     Json channels = Json::array(), samplers = Json::array();
 };
 
-uint32_t NodeCurve::element_width() const {
-    return name == std::string_view("weights") ? 1 : width;
+// Lists that no type of an accessor holds are scalars one after the other, as weights are.
+uint32_t PropertyCurve::element_width() const {
+    bool has_type = width <= 4 || width == 16;
+    return name == "weights" || !has_type ? 1 : width;
 }
 
 CurveWriter::CurveWriter(std::span<const Take> takes, double error, GltfDocument& document,
@@ -47,7 +62,7 @@ CurveWriter::CurveWriter(std::span<const Take> takes, double error, GltfDocument
 
 CurveWriter::~CurveWriter() = default;
 
-void CurveWriter::add_channel(uint32_t take, uint32_t node, const NodeCurve& curve,
+void CurveWriter::add_channel(uint32_t take, uint32_t node, const PropertyCurve& curve,
                               const std::vector<double>& times, const std::vector<double>& numbers,
                               const char* interpolation) {
     auto [input, fresh] = key_accessors_.try_emplace(times, 0);
@@ -57,14 +72,14 @@ void CurveWriter::add_channel(uint32_t take, uint32_t node, const NodeCurve& cur
     uint32_t output = buffer_.accessor(std::vector<float>(numbers.begin(), numbers.end()),
                                        curve.element_width(), 0, false);
     Output& to = outputs_[take];
-    to.channels.push_back(
-        {{"sampler", to.samplers.size()}, {"target", {{"node", node}, {"path", curve.name}}}});
+    to.channels.push_back({{"sampler", to.samplers.size()}, {"target", target_of(node, curve)}});
+    if (curve.is_pointer()) document_.use_extension(kAnimationPointer);
     to.samplers.push_back(
         {{"input", input->second}, {"interpolation", interpolation}, {"output", output}});
 }
 
 // Steps alone: the values at the keys, held.
-bool CurveWriter::add_step(uint32_t take, uint32_t node, const NodeCurve& curve) {
+bool CurveWriter::add_step(uint32_t take, uint32_t node, const PropertyCurve& curve) {
     for (const MovingChannel& c : curve.channels)
         for (size_t k = 0; k + 1 < c.sampler->interpolations.size(); ++k)
             if (c.sampler->interpolations[k] != anim::Interpolation::Step) return false;
@@ -75,7 +90,7 @@ bool CurveWriter::add_step(uint32_t take, uint32_t node, const NodeCurve& curve)
     return true;
 }
 
-bool CurveWriter::add_spline(uint32_t take, uint32_t node, const NodeCurve& curve,
+bool CurveWriter::add_spline(uint32_t take, uint32_t node, const PropertyCurve& curve,
                              uint32_t first_value) {
     if (curve.channels.empty()) return false;
     const std::vector<double>& keys = curve.channels[0].sampler->times;
@@ -124,7 +139,7 @@ bool CurveWriter::add_spline(uint32_t take, uint32_t node, const NodeCurve& curv
 }
 
 // Straight pieces.
-void CurveWriter::add_sampled(uint32_t take, uint32_t node, const NodeCurve& curve) {
+void CurveWriter::add_sampled(uint32_t take, uint32_t node, const PropertyCurve& curve) {
     StraightKeys keys = reduce_keys(curve, curve.times, curve.tolerance);
     if (keys.worst > 0.01 * curve.tolerance) {  // less is rounding
         ++sampled_;
@@ -133,7 +148,7 @@ void CurveWriter::add_sampled(uint32_t take, uint32_t node, const NodeCurve& cur
     add_channel(take, node, curve, keys.times, keys.numbers, "LINEAR");
 }
 
-void CurveWriter::add(uint32_t take, uint32_t node, NodeCurve curve) {
+void CurveWriter::add(uint32_t take, uint32_t node, PropertyCurve curve) {
     if (curve.times.empty()) return;
     std::vector<double> first(curve.width);
     curve.at(curve.times[0], first.data());
@@ -141,22 +156,24 @@ void CurveWriter::add(uint32_t take, uint32_t node, NodeCurve curve) {
     double still = 1e-12 * std::max(extent.size, 1e-12);
     if (extent.moves <= still) return add_still(take, node, curve, first, still);
     curve.tolerance = error_;
-    bool is_scale = curve.name == std::string_view("scale");
+    bool is_scale = curve.name == "scale";
     if (!curve.rotation) curve.tolerance *= is_scale ? extent.size : extent.moves;
     if (add_step(take, node, curve)) return;
     add_sampled(take, node, curve);
 }
 
-void CurveWriter::add_still(uint32_t take, uint32_t node, const NodeCurve& curve,
+void CurveWriter::add_still(uint32_t take, uint32_t node, const PropertyCurve& curve,
                             const std::vector<double>& numbers, double tolerance) {
-    Json& own = document_.node(node);
+    std::string pointer =
+        curve.is_pointer() ? curve.name : fmt::format("/nodes/{}/{}", node, curve.name);
+    const Json* own = document_.find(pointer);
     if (takes_.size() == 1) {
-        own[curve.name] = numbers;
+        document_.set(pointer, own && own->is_number() ? Json(numbers[0]) : Json(numbers));
         return;
     }
-    std::vector<double> rest(curve.width, curve.name == std::string_view("scale") ? 1.0 : 0.0);
+    std::vector<double> rest(curve.width, curve.name == "scale" ? 1.0 : 0.0);
     if (curve.rotation) rest[3] = 1;
-    if (own.contains(curve.name)) rest = own[curve.name].get<std::vector<double>>();
+    if (own) rest = numbers_of(*own);
     if (curve.distance(rest.data(), numbers.data()) > tolerance)
         add_channel(take, node, curve, {curve.times[0]}, numbers, "STEP");
 }

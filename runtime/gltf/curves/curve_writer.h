@@ -1,10 +1,11 @@
-// runtime/gltf/curves/curve_writer.h: curves of nodes as glTF's channels and samplers: exact where
+// runtime/gltf/curves/curve_writer.h: curves as glTF's channels and samplers: exact where
 // it has them, else sampled.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "runtime/curves/channels.h"
@@ -15,13 +16,16 @@
 
 namespace kinora {
 
-// A node's property over time, and how near its keys must come.
-struct NodeCurve : Curve {
-    const char* name;  // glTF's path: "translation", "weights"
+// A property of a node over time, or any value of the file by its JSON pointer
+// (KHR_animation_pointer), and how near its keys must come.
+struct PropertyCurve : Curve {
+    std::string name;  // glTF's path: "translation", "weights"; or "/materials/0/alphaCutoff"
     std::vector<MovingChannel> channels;
     double tolerance = 1e-4;
     std::vector<double> times;  // keys of the channels, more where they turn far
-    uint32_t element_width() const;
+
+    bool is_pointer() const { return name.starts_with('/'); }
+    uint32_t element_width() const;  // of its accessor
 };
 
 class CurveWriter {
@@ -31,14 +35,15 @@ class CurveWriter {
                 BufferWriter& buffer);
     ~CurveWriter();
 
-    // A curve that stays where it is needs no keys: it is written into the node, or is one key
-    // where another take may move the node elsewhere.
-    void add(uint32_t take, uint32_t node, NodeCurve curve);
+    // `node` is kNone for a pointer, whose value is already in the document. A curve that stays
+    // where it is needs no keys: it is written into the document, or is one key where another take
+    // may move the value elsewhere.
+    void add(uint32_t take, uint32_t node, PropertyCurve curve);
 
     // Cubics whose inner times are the thirds are cubics of the time: tangents are three times the
     // legs over the duration. False where the channels are none with the same keys, which write
     // values from first_value on.
-    bool add_spline(uint32_t take, uint32_t node, const NodeCurve& curve, uint32_t first_value);
+    bool add_spline(uint32_t take, uint32_t node, const PropertyCurve& curve, uint32_t first_value);
 
     // Adds an animation to the document for each take that has channels.
     void write_animations();
@@ -47,11 +52,11 @@ class CurveWriter {
 
   private:
     struct Output;  // channels and samplers of a take
-    bool add_step(uint32_t take, uint32_t node, const NodeCurve& curve);
-    void add_still(uint32_t take, uint32_t node, const NodeCurve& curve,
+    bool add_step(uint32_t take, uint32_t node, const PropertyCurve& curve);
+    void add_still(uint32_t take, uint32_t node, const PropertyCurve& curve,
                    const std::vector<double>& numbers, double tolerance);
-    void add_sampled(uint32_t take, uint32_t node, const NodeCurve& curve);
-    void add_channel(uint32_t take, uint32_t node, const NodeCurve& curve,
+    void add_sampled(uint32_t take, uint32_t node, const PropertyCurve& curve);
+    void add_channel(uint32_t take, uint32_t node, const PropertyCurve& curve,
                      const std::vector<double>& times, const std::vector<double>& numbers,
                      const char* interpolation);
 

@@ -74,7 +74,7 @@ void NodeMotion::move_node(uint32_t take, uint32_t node, std::span<const Transfo
         decompose_trs(stack_matrix(before, stack, values_.values()), trs);
         return trs;
     };
-    NodeCurve curve;
+    PropertyCurve curve;
     curve.channels = channels;
     curve.times = key_times(stack, channels, description_);
     auto triple = [](const dvec3& v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; };
@@ -84,7 +84,7 @@ void NodeMotion::move_node(uint32_t take, uint32_t node, std::span<const Transfo
     auto add = [&](TransformKind kind) {
         const Transform* t = before == dmat4(1.0) ? only_mover(take, stack, kind) : nullptr;
         if (t) {
-            NodeCurve own = curve;
+            PropertyCurve own = curve;
             own.channels = channels_of(animation, t->value, 3);
             if (curves_.add_spline(take, node, own, t->value)) return;
         }
@@ -116,7 +116,7 @@ void NodeMotion::move_weights(uint32_t node, uint32_t morph) {
     const ValueSlot& weights = description_.morphs[morph].weights;
     const std::vector<uint32_t> chain = morph_chain(description_, morph);
     for (uint32_t take = 0; take < takes_.size(); ++take) {
-        NodeCurve curve;
+        PropertyCurve curve;
         curve.name = "weights";
         curve.width = uint32_t(chain_targets(description_, morph));
         for (uint32_t m : chain) {

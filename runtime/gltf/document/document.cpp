@@ -58,6 +58,15 @@ Json& GltfDocument::node(uint32_t index) {
     return (*json_)["nodes"][index];
 }
 
+Json* GltfDocument::find(const std::string& pointer) {
+    Json::json_pointer path(pointer);
+    return json_->contains(path) ? &json_->at(path) : nullptr;
+}
+
+void GltfDocument::set(const std::string& pointer, Json value) {
+    (*json_)[Json::json_pointer(pointer)] = std::move(value);
+}
+
 Json& GltfDocument::scene() {
     return (*json_)["scenes"][0];
 }

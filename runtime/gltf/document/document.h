@@ -10,6 +10,8 @@
 
 namespace kinora {
 
+inline constexpr const char* kAnimationPointer = "KHR_animation_pointer";
+
 // Lists ("meshes", "nodes") whose elements name each other by index, and one scene. A list stands
 // in the file where it began, so a file's bytes follow from the order of calls. References are
 // valid until the next element is added.
@@ -31,6 +33,8 @@ class GltfDocument {
 
     Json& list(const char* name);  // begun if need be
     Json& node(uint32_t index);
+    Json* find(const std::string& pointer);  // null: nothing is there
+    void set(const std::string& pointer, Json value);
     Json& scene();
     bool has(const char* list) const;
 

@@ -16,45 +16,57 @@ double tangent(double degrees) {
     return std::tan(0.5 * radians(degrees));
 }
 
+// 0 where there is none.
+double number(const std::vector<double>& values, ValueSlot slot) {
+    return slot.present() ? values[slot.offset] : 0.0;
+}
+
 }  // namespace
 
 uint32_t CameraWriter::write(uint32_t camera) {
     auto [found, is_new] = cameras_.try_emplace(camera, 0);
     if (!is_new) return found->second;
     document_.begin("cameras");
-    return found->second = document_.add("cameras", new_camera(description_.cameras[camera]));
+    return found->second = write_new(description_.cameras[camera]);
 }
 
-double CameraWriter::number(ValueSlot slot) const {
-    return slot.present() ? description_.values[slot.offset] : 0.0;
-}
-
-Json CameraWriter::new_camera(const CameraDefinition& c) {
-    for (ValueSlot slot : {c.x, c.y, c.aspect, c.znear, c.zfar})
-        if (is_animated(description_, slot)) {
-            losses_.lost(fmt::format("camera '{}'", c.id), "its animated optics", c.where);
-            break;
-        }
-    double far = number(c.zfar) * description_.meter, near = number(c.znear) * description_.meter;
-    if (!(near > 0)) near = far > 0 ? 1e-4 * far : 1e-3 * bounds_.radius;
-    if (!(far > near)) far = 0;
-    Json optics = c.orthographic ? orthographic(c) : perspective(c);
-    if (c.orthographic && !(far > 0)) far = near + 1e3 * bounds_.radius;
-    optics["znear"] = near;
-    if (far > 0) optics["zfar"] = far;
+uint32_t CameraWriter::write_new(const CameraDefinition& c) {
+    const std::string name = fmt::format("camera '{}'", c.id);
+    const ValueSlot slots[] = {c.x, c.y, c.aspect, c.znear, c.zfar};
+    ObjectAt optics_of = [&](const std::vector<double>& values) { return optics(c, values); };
+    MovingObject moving = motion_.object(slots, optics_of);
     const char* type = c.orthographic ? "orthographic" : "perspective";
-    Json result = {{"type", type}, {type, optics}};
+    Json result = {{"type", type}, {type, moving.rest()}};
     if (!c.id.empty()) result["name"] = c.id;
     Json shaders = rsl_.picture(c.picture);
     if (!shaders.empty()) {
         result["extras"]["kinora_rsl"] = shaders;
-        losses_.in_extras(fmt::format("camera '{}'", c.id), "its RSL shaders", c.where);
+        losses_.in_extras(name, "its RSL shaders", c.where);
     }
-    return result;
+    for (const std::string& member : moving.lost())
+        losses_.lost(name, fmt::format("how its '{}' comes and goes", member), c.where);
+    uint32_t index = document_.add("cameras", std::move(result));
+    const std::string pointer = fmt::format("/cameras/{}", index);
+    motion_.move_object(fmt::format("{}/{}", pointer, type), slots, optics_of, moving);
+    rsl_.move_picture(pointer + "/extras/kinora_rsl", c.picture);
+    return index;
 }
 
-Json CameraWriter::orthographic(const CameraDefinition& c) const {
-    double x = number(c.x), y = number(c.y), aspect = number(c.aspect);
+Json CameraWriter::optics(const CameraDefinition& c, const std::vector<double>& values) {
+    double far = number(values, c.zfar) * description_.meter;
+    double near = number(values, c.znear) * description_.meter;
+    if (!(near > 0)) near = far > 0 ? 1e-4 * far : 1e-3 * bounds_.radius;
+    if (!(far > near)) far = 0;
+    Json optics = c.orthographic ? orthographic(c, values) : perspective(c, values);
+    if (c.orthographic && !(far > 0)) far = near + 1e3 * bounds_.radius;
+    optics["znear"] = near;
+    if (far > 0) optics["zfar"] = far;
+    return optics;
+}
+
+Json CameraWriter::orthographic(const CameraDefinition& c,
+                                const std::vector<double>& values) const {
+    double x = number(values, c.x), y = number(values, c.y), aspect = number(values, c.aspect);
     if (!(aspect > 0)) aspect = 1;
     if (!(x > 0)) x = y > 0 ? y * aspect : 1;
     if (!(y > 0)) y = x / aspect;
@@ -62,8 +74,8 @@ Json CameraWriter::orthographic(const CameraDefinition& c) const {
 }
 
 // glTF has the vertical field and the aspect: COLLADA's other pairs are turned into that.
-Json CameraWriter::perspective(const CameraDefinition& c) {
-    double x = number(c.x), y = number(c.y), aspect = number(c.aspect);
+Json CameraWriter::perspective(const CameraDefinition& c, const std::vector<double>& values) {
+    double x = number(values, c.x), y = number(values, c.y), aspect = number(values, c.aspect);
     if (x > 0 && y > 0) aspect = tangent(x) / tangent(y);
     if (x > 0 && !(y > 0)) {
         if (!(aspect > 0)) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <vector>
 
 #include "runtime/gltf/export/bounds.h"
 #include "runtime/gltf/export/rsl.h"
@@ -12,24 +13,27 @@ namespace kinora {
 class CameraWriter {
   public:
     CameraWriter(const SceneDescription& description, const SceneBounds& bounds, RslWriter& rsl,
-                 GltfDocument& document, LossReport& losses)
+                 PointerMotion& motion, GltfDocument& document, LossReport& losses)
         : description_(description),
           bounds_(bounds),
           rsl_(rsl),
+          motion_(motion),
           document_(document),
           losses_(losses) {}
 
     uint32_t write(uint32_t camera);
 
   private:
-    Json new_camera(const CameraDefinition& definition);
-    Json orthographic(const CameraDefinition& definition) const;
-    Json perspective(const CameraDefinition& definition);
-    double number(ValueSlot slot) const;  // 0 where there is none
+    uint32_t write_new(const CameraDefinition& definition);
+    // By the values of a time.
+    Json optics(const CameraDefinition& definition, const std::vector<double>& values);
+    Json orthographic(const CameraDefinition& definition, const std::vector<double>& values) const;
+    Json perspective(const CameraDefinition& definition, const std::vector<double>& values);
 
     const SceneDescription& description_;
     const SceneBounds& bounds_;
     RslWriter& rsl_;
+    PointerMotion& motion_;
     GltfDocument& document_;
     LossReport& losses_;
     std::map<uint32_t, uint32_t> cameras_;  // of definitions

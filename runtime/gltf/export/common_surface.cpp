@@ -70,9 +70,9 @@ bool is_common_surface(const ShaderUse& shader) {
                        [&](auto* model) { return is_library_shader(shader, model); });
 }
 
-Json SurfaceWriter::common(const MaterialDefinition& definition, const ShaderUse& shader,
+Json SurfaceWriter::common(const MaterialDefinition& definition, const UsedParams& p,
                            const MaterialUse& use, const PrimitiveGroup& group) {
-    UsedParams p{shader, description_.values};
+    const ShaderUse& shader = p.use;
     std::string model = shader.shader->name;
     bool unlit = model == kModels[0];
     bool has_highlight = model == kModels[2] || model == kModels[3];

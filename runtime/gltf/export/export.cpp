@@ -50,6 +50,7 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
     std::vector<Take> takes = find_takes(description);
     CurveWriter curves(takes, options.animation_error, document, buffer);
     NodeMotion motion(description, takes, curves);
+    PointerMotion pointers(description, takes, curves);
     NodeWriter nodes(description, motion, document, losses);
 
     dmat4 axes = gltf_axes(description);
@@ -59,20 +60,21 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
 
     GltfLooks looks(description, diagnostics);
     TextureWriter textures(description.pictures, document, buffer, losses);
-    RslWriter rsl(description, textures, losses, options.link);
-    SurfaceWriter surfaces(description, textures, document, losses);
-    MaterialWriter materials(description, looks, surfaces, rsl, document, losses);
+    RslWriter rsl(description, textures, pointers, losses, options.link);
+    SurfaceWriter surfaces(textures, document, losses);
+    MaterialWriter materials(description, looks, surfaces, rsl, pointers, document, losses);
     MeshWriter meshes(description, looks, materials, document, buffer, losses);
     SkinWriter skins(description, root, occurrences, nodes, document, buffer);
-    CameraWriter cameras(description, bounds, rsl, document, losses);
-    LightWriter lights(description, bounds, axes, rsl, document, losses);
+    CameraWriter cameras(description, bounds, rsl, pointers, document, losses);
+    LightWriter lights(description, bounds, axes, rsl, pointers, document, losses);
     ContentWriter content(description, occurrences, meshes, skins, cameras, lights, nodes, motion,
                           document);
     for (uint32_t o = 0; o < occurrences.size(); ++o) content.write(o);
     give_skins_a_root(document);
 
+    write_scene_shaders(description, rsl, document, losses);
     curves.write_animations();
-    write_scene_extras(description, takes, curves, rsl, document, losses);
+    write_scene_extras(description, takes, curves, document, losses);
     report_lost_times(description.animation, losses);
     curves.report(losses);
     losses.hidden(document.hidden());

@@ -95,7 +95,7 @@ PunctualLight punctual_light(const UsedParams& p, double meters, double meter) {
                                   {"outerConeAngle", p.number("outer_angle", kPi / 4)}};
         light.more = false;
     } else {
-        light = punctual("point", 0, color, most);  // nothing of glTF's comes near
+        light = punctual("point", 0, dvec3(1.0), 1);  // nothing of glTF's comes near
         if (is("collada_ambient")) light.beyond = "ambient light";
     }
     return light;
@@ -116,26 +116,38 @@ uint32_t LightWriter::write_new(const LightDefinition& l, const dmat4& world) {
     const ShaderUse& use = l.shader;
     std::string name = fmt::format("light '{}'", l.id);
     double meters = glm::length(dvec3((axes_ * world)[3]) - bounds_.center);
-    UsedParams params{use, description_.values};
     bool blender = l.blender_watts && !is_library_shader(use, "collada_ambient");
-    PunctualLight light = blender ? blender_light(params, description_.meter)
-                                  : punctual_light(params, meters, description_.meter);
-    Json& result = light.json;
+    bool more = false;  // at any time
+    const char* beyond = "";
+    ObjectAt light_of = [&](const std::vector<double>& values) {
+        UsedParams params{use, values};
+        PunctualLight light = blender ? blender_light(params, description_.meter)
+                                      : punctual_light(params, meters, description_.meter);
+        more |= light.more;
+        beyond = light.beyond;
+        return light.json;
+    };
+    const std::vector<ValueSlot> slots = slots_of(use);
+    MovingObject moving = motion_.object(slots, light_of);
+    Json result = moving.rest();
     if (!l.id.empty()) result["name"] = l.id;
     if (l.blender) result["extras"]["kinora_blender"] = true;  // it has a grey world
-    if ((light.more || l.shadows) && use.shader) {
+    bool has_extras = (more || l.shadows) && use.shader;
+    if (has_extras) {
         Json extras = rsl_.shader(use);  // in the file's own unit: kinora_axes tells it
         result["extras"]["kinora_rsl"]["light"] = extras;
         if (l.ambient) result["extras"]["kinora_rsl"]["ambient"] = true;
         if (l.shadows) result["extras"]["kinora_rsl"]["shadows"] = *l.shadows;
-        losses_.in_extras(name, light.beyond, l.where);
+        losses_.in_extras(name, beyond, l.where);
     }
-    for (const ParamSource& p : use.params)
-        if (is_animated(description_, p.value)) {
-            losses_.lost(name, "its animated parameters", l.where);
-            break;
-        }
-    return document_.add_light(std::move(result));
+    for (const std::string& member : moving.lost())
+        if (!has_extras)
+            losses_.lost(name, fmt::format("how its '{}' comes and goes", member), l.where);
+    uint32_t index = document_.add_light(std::move(result));
+    std::string pointer = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
+    motion_.move_object(pointer, slots, light_of, moving);
+    if (has_extras) rsl_.move_shader(pointer + "/extras/kinora_rsl/light", use);
+    return index;
 }
 
 }  // namespace kinora

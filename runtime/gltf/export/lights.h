@@ -12,11 +12,12 @@ namespace kinora {
 class LightWriter {
   public:
     LightWriter(const SceneDescription& description, const SceneBounds& bounds, const dmat4& axes,
-                RslWriter& rsl, GltfDocument& document, LossReport& losses)
+                RslWriter& rsl, PointerMotion& motion, GltfDocument& document, LossReport& losses)
         : description_(description),
           bounds_(bounds),
           axes_(axes),
           rsl_(rsl),
+          motion_(motion),
           document_(document),
           losses_(losses) {}
 
@@ -30,6 +31,7 @@ class LightWriter {
     const SceneBounds& bounds_;
     const dmat4& axes_;
     RslWriter& rsl_;
+    PointerMotion& motion_;
     GltfDocument& document_;
     LossReport& losses_;
     std::map<uint32_t, uint32_t> lights_;  // of definitions

@@ -24,11 +24,11 @@ bool is_library_shader(const ShaderUse& use, std::string_view name) {
     return library_shader(name).get() == use.shader.get();
 }
 
-bool is_animated(const SceneDescription& description, ValueSlot slot) {
-    for (uint32_t i = 0; slot.present() && i < slot.count; ++i)
-        if (slot.offset + i < description.animated.size() && description.animated[slot.offset + i])
-            return true;
-    return false;
+std::vector<ValueSlot> slots_of(const ShaderUse& use) {
+    std::vector<ValueSlot> slots;
+    for (const ParamSource& p : use.params)
+        if (p.value.present()) slots.push_back(p.value);
+    return slots;
 }
 
 std::span<const double> slot_values(const SceneDescription& description, ValueSlot slot) {

@@ -17,12 +17,13 @@ const ParamSource* find_map(const ShaderUse& use, const std::string& slot);
 // Whether the use is that library shader.
 bool is_library_shader(const ShaderUse& use, std::string_view name);
 
-// Whether a channel writes any of a slot's numbers.
-bool is_animated(const SceneDescription& description, ValueSlot slot);
 // A slot's numbers at rest; none where it is not present.
 std::span<const double> slot_values(const SceneDescription& description, ValueSlot slot);
 
-// The parameters that a use of a shader gives, at rest.
+// The slots of all numbers that the use gives.
+std::vector<ValueSlot> slots_of(const ShaderUse& use);
+
+// The parameters that a use of a shader gives, by the values of a time.
 struct UsedParams {
     const ShaderUse& use;
     const std::vector<double>& values;

@@ -64,14 +64,14 @@ Json SurfaceWriter::map_info(const ShaderUse& shader, const std::string& slot,
     return map ? texture_info(*map, use, group) : Json();
 }
 
-Json SurfaceWriter::pbr_map_info(const ShaderUse& shader, const std::string& slot, bool data,
+Json SurfaceWriter::pbr_map_info(const UsedParams& params, const std::string& slot, bool data,
                                  const MaterialUse& use, const PrimitiveGroup& group,
                                  bool& is_all) {
-    const ParamSource* map = find_map(shader, slot);
+    const ParamSource* map = find_map(params.use, slot);
     if (!map) return nullptr;
     Json info = texture_info(*map, use, group);
     TextureName name = parse_texture_name(map->strings[0]);
-    Json transform = texture_transform({shader, description_.values}, slot, is_all);
+    Json transform = texture_transform(params, slot, is_all);
     bool transformed_twice = !transform.is_null() && name.uv != TextureName().uv;
     is_all &= fits_gltf_sampler(name) && name.data == data && !transformed_twice;
     if (info.is_null() || transform.is_null() || transformed_twice) return info;
@@ -85,20 +85,19 @@ void SurfaceWriter::extend(Json& material, const char* extension, Json value) {
     document_.use_extension(extension);
 }
 
-Json SurfaceWriter::pbr(const ShaderUse& shader, const MaterialUse& use,
-                        const PrimitiveGroup& group, bool& is_all) {
-    UsedParams p{shader, description_.values};
-    is_all = use.params.empty();
+Json SurfaceWriter::pbr(const UsedParams& p, const MaterialUse& use, const PrimitiveGroup& group,
+                        bool& is_all) {
+    is_all &= use.params.empty();
     dvec3 base = p.color("base_color", 1);
     Json pbr = {{"baseColorFactor",
                  {unit(base.x, is_all), unit(base.y, is_all), unit(base.z, is_all),
                   unit(p.number("base_alpha", 1), is_all)}}};
     Json material = Json::object();
     auto map = [&](const std::string& slot, bool data) {
-        return pbr_map_info(shader, slot, data, use, group, is_all);
+        return pbr_map_info(p, slot, data, use, group, is_all);
     };
     set(pbr, "baseColorTexture", map("base_color", false));
-    if (shader.shader->name == "gltf_unlit") {
+    if (p.use.shader->name == "gltf_unlit") {
         extend(material, "KHR_materials_unlit", Json::object());
     } else {
         pbr["metallicFactor"] = unit(p.number("metallic", 1), is_all);
@@ -127,7 +126,7 @@ Json SurfaceWriter::pbr(const ShaderUse& shader, const MaterialUse& use,
 }
 
 void SurfaceWriter::write_emission(const UsedParams& p, Json& material) {
-    dvec3 emissive = p.color("emissive", 0);
+    dvec3 emissive = p.color("emissive", 0) * p.number("emissive_strength", 1);
     double most = std::max({emissive.x, emissive.y, emissive.z, 1.0});
     if (emissive != dvec3(0.0))
         material["emissiveFactor"] = {emissive.x / most, emissive.y / most, emissive.z / most};

@@ -1,6 +1,8 @@
 // runtime/gltf/export/rsl.cpp: shaders as extras.kinora_rsl.
 #include "runtime/gltf/export/rsl.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "collada/document/edit.h"
@@ -33,6 +35,19 @@ void add_inputs(const std::vector<VertexBinding>& bindings,
             break;
         }
 }
+
+struct StageRow {
+    const char* name;
+    std::vector<ShaderUse> MaterialDefinition::*uses;
+};
+constexpr StageRow kStages[] = {
+    {"transformation", &MaterialDefinition::transformations},
+    {"displacement", &MaterialDefinition::displacements},
+    {"surface", &MaterialDefinition::surfaces},
+    {"volume", &MaterialDefinition::interior},
+    {"exterior", &MaterialDefinition::exterior},
+    {"light", &MaterialDefinition::lights},
+};
 
 }  // namespace
 
@@ -129,19 +144,43 @@ Json RslWriter::bound_stage(const std::vector<ShaderUse>& uses, const MaterialUs
 Json RslWriter::material(const GltfLook& look, const PrimitiveGroup& group) {
     const MaterialDefinition& m = look.definition;
     Json result = Json::object();
-    auto add = [&](const char* name, const std::vector<ShaderUse>& uses) {
-        if (!uses.empty()) result[name] = bound_stage(uses, look.bound, group);
-    };
-    add("transformation", m.transformations);
-    add("displacement", m.displacements);
-    add("surface", m.surfaces);
-    add("volume", m.interior);
-    add("exterior", m.exterior);
-    add("light", m.lights);
+    for (const StageRow& row : kStages)
+        if (const auto& uses = m.*row.uses; !uses.empty())
+            result[row.name] = bound_stage(uses, look.bound, group);
     if (result.contains("light") && m.light_samples) result["light_samples"] = m.light_samples;
     if (result.empty()) return result;
     add_inputs(look.bound.vertex_bindings, attributes_of(look, group, losses_), result);
     return result;
+}
+
+void RslWriter::move_stage(const std::string& pointer, const std::vector<ShaderUse>& uses) {
+    if (uses.size() == 1) return move_shader(pointer, uses[0]);
+    for (size_t layer = 0; layer < uses.size(); ++layer)
+        move_shader(fmt::format("{}/{}", pointer, layer), uses[layer]);
+}
+
+void RslWriter::move_shader(const std::string& pointer, const ShaderUse& use) {
+    for (const ParamSource& p : use.params)
+        if (p.strings.empty() && find_source(use, p.name) == &p)
+            motion_.move_numbers(fmt::format("{}/params/{}", pointer, p.name), p.value);
+}
+
+void RslWriter::move_picture(const std::string& pointer, const PictureShaders& picture) {
+    move_stage(pointer + "/atmosphere", picture.atmosphere);
+    move_stage(pointer + "/imagers", picture.imagers);
+}
+
+void RslWriter::move_material(const std::string& pointer, const GltfLook& look) {
+    for (const StageRow& row : kStages) {
+        std::vector<ShaderUse> uses = look.definition.*row.uses;
+        const std::string own = fmt::format("{}/{}", pointer, row.name);
+        if (uses.size() == 1)
+            for (const auto& [name, slot] : look.bound.params) {  // they stand in place of others
+                std::erase_if(uses[0].params, [&](const auto& p) { return p.name == name; });
+                motion_.move_numbers(fmt::format("{}/params/{}", own, name), slot);
+            }
+        move_stage(own, uses);
+    }
 }
 
 }  // namespace kinora

@@ -1,9 +1,11 @@
 // runtime/gltf/export/rsl.h: shaders as extras.kinora_rsl, which import_gltf reads.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "runtime/description/rsl_literals.h"
+#include "runtime/gltf/curves/pointer_motion.h"
 #include "runtime/gltf/export/looks.h"
 #include "runtime/gltf/export/textures.h"
 
@@ -12,9 +14,13 @@ namespace kinora {
 class RslWriter {
   public:
     // `link`: GltfExportOptions.
-    RslWriter(const SceneDescription& description, TextureWriter& textures, LossReport& losses,
-              const FileLink& link)
-        : description_(description), textures_(textures), losses_(losses), link_(link) {}
+    RslWriter(const SceneDescription& description, TextureWriter& textures, PointerMotion& motion,
+              LossReport& losses, const FileLink& link)
+        : description_(description),
+          textures_(textures),
+          motion_(motion),
+          losses_(losses),
+          link_(link) {}
 
     // {"library": name} or {"code", "shader"}, and "params".
     Json shader(const ShaderUse& use);
@@ -25,6 +31,12 @@ class RslWriter {
     // The stages of a material on a group; an empty object where there are none.
     Json material(const GltfLook& look, const PrimitiveGroup& group);
 
+    // The curves of parameters that stand below `pointer`, where these have put them.
+    void move_stage(const std::string& pointer, const std::vector<ShaderUse>& uses);
+    void move_shader(const std::string& pointer, const ShaderUse& use);
+    void move_picture(const std::string& pointer, const PictureShaders& picture);
+    void move_material(const std::string& pointer, const GltfLook& look);
+
   private:
     std::string code(const rsl::Shader& shader, size_t part) const;
     void add_co_shaders(const rsl::Shader& shader, Json& result, Json& params) const;
@@ -34,6 +46,7 @@ class RslWriter {
 
     const SceneDescription& description_;
     TextureWriter& textures_;
+    PointerMotion& motion_;
     LossReport& losses_;
     FileLink link_;
 };

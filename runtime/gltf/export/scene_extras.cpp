@@ -34,9 +34,17 @@ Json clip_ranges(const SceneDescription& description, std::span<const Take> take
 
 }  // namespace
 
+void write_scene_shaders(const SceneDescription& description, RslWriter& rsl,
+                         GltfDocument& document, LossReport& losses) {
+    Json shaders = rsl.picture(description.picture);
+    if (shaders.empty()) return;
+    document.scene()["extras"]["kinora_rsl"] = shaders;
+    rsl.move_picture("/scenes/0/extras/kinora_rsl", description.picture);
+    losses.in_extras("the scene", "its atmosphere and imagers");
+}
+
 void write_scene_extras(const SceneDescription& description, std::span<const Take> takes,
-                        const CurveWriter& curves, RslWriter& rsl, GltfDocument& document,
-                        LossReport& losses) {
+                        const CurveWriter& curves, GltfDocument& document, LossReport& losses) {
     Json extras = Json::object();
     Json ranges = clip_ranges(description, takes, curves);
     if (!ranges.empty()) extras["kinora_clips"] = ranges;
@@ -45,12 +53,7 @@ void write_scene_extras(const SceneDescription& description, std::span<const Tak
     if (description.frame_rate) extras["kinora_frame_rate"] = *description.frame_rate;
     if (!ranges.empty())
         losses.in_extras("the scene", fmt::format("the ranges of {} clips", ranges.size()));
-    Json shaders = rsl.picture(description.picture);
-    if (!shaders.empty()) {
-        extras["kinora_rsl"] = shaders;
-        losses.in_extras("the scene", "its atmosphere and imagers");
-    }
-    if (!extras.empty()) document.scene()["extras"] = extras;
+    if (!extras.empty()) document.scene()["extras"].update(extras);
 }
 
 }  // namespace kinora

@@ -6,9 +6,12 @@
 
 namespace kinora {
 
+// Before the takes, since parameters move.
+void write_scene_shaders(const SceneDescription& description, RslWriter& rsl,
+                         GltfDocument& document, LossReport& losses);
+
 // `curves` has written the takes.
 void write_scene_extras(const SceneDescription& description, std::span<const Take> takes,
-                        const CurveWriter& curves, RslWriter& rsl, GltfDocument& document,
-                        LossReport& losses);
+                        const CurveWriter& curves, GltfDocument& document, LossReport& losses);
 
 }  // namespace kinora

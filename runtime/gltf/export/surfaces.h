@@ -11,17 +11,16 @@ namespace kinora {
 
 class SurfaceWriter {
   public:
-    SurfaceWriter(const SceneDescription& description, TextureWriter& textures,
-                  GltfDocument& document, LossReport& losses)
-        : description_(description), textures_(textures), document_(document), losses_(losses) {}
+    SurfaceWriter(TextureWriter& textures, GltfDocument& document, LossReport& losses)
+        : textures_(textures), document_(document), losses_(losses) {}
 
-    // A fixed-function material of COLLADA (collada_*.sl).
-    Json common(const MaterialDefinition& definition, const ShaderUse& shader,
+    // A fixed-function material of COLLADA (collada_*.sl), by the values of a time.
+    Json common(const MaterialDefinition& definition, const UsedParams& params,
                 const MaterialUse& use, const PrimitiveGroup& group);
 
-    // What import_gltf makes of glTF's own materials, written back; `is_all` false where they say
-    // more than glTF does.
-    Json pbr(const ShaderUse& shader, const MaterialUse& use, const PrimitiveGroup& group,
+    // What import_gltf makes of glTF's own materials, written back; `is_all` becomes false where
+    // they say more than glTF does.
+    Json pbr(const UsedParams& params, const MaterialUse& use, const PrimitiveGroup& group,
              bool& is_all);
 
   private:
@@ -29,7 +28,7 @@ class SurfaceWriter {
     Json map_info(const ShaderUse& shader, const std::string& slot, const MaterialUse& use,
                   const PrimitiveGroup& group);
     Json texture_info(const ParamSource& map, const MaterialUse& use, const PrimitiveGroup& group);
-    Json pbr_map_info(const ShaderUse& shader, const std::string& slot, bool data,
+    Json pbr_map_info(const UsedParams& params, const std::string& slot, bool data,
                       const MaterialUse& use, const PrimitiveGroup& group, bool& is_all);
     void write_emission(const UsedParams& params, Json& material);
     void write_specular_glossiness(const UsedParams& params, Json& pbr, Json texture,
@@ -37,7 +36,6 @@ class SurfaceWriter {
     void write_reflection(const UsedParams& params, Json& material, bool& is_all);
     void extend(Json& material, const char* extension, Json value);
 
-    const SceneDescription& description_;
     TextureWriter& textures_;
     GltfDocument& document_;
     LossReport& losses_;
