@@ -126,7 +126,7 @@ Json SurfaceWriter::pbr(const UsedParams& p, const MaterialUse& use, const Primi
 }
 
 void SurfaceWriter::write_emission(const UsedParams& p, Json& material) {
-    dvec3 emissive = p.color("emissive", 0) * p.number("emissive_strength", 1);
+    dvec3 emissive = p.color("emissive", 0);
     double most = std::max({emissive.x, emissive.y, emissive.z, 1.0});
     if (emissive != dvec3(0.0))
         material["emissiveFactor"] = {emissive.x / most, emissive.y / most, emissive.z / most};

@@ -16,7 +16,7 @@ constexpr std::string_view kUnderstood[] = {
     "KHR_texture_transform",  "KHR_mesh_quantization",
     "KHR_materials_ior",      "KHR_materials_emissive_strength",
     "KHR_materials_specular", "KHR_materials_pbrSpecularGlossiness",
-    "KHR_node_visibility",
+    "KHR_node_visibility",    "KHR_animation_pointer",
 };
 
 // The picture is the same without them: choices whose default stands in the file itself, metadata,

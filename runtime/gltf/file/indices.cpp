@@ -21,10 +21,12 @@ struct Row {
     const char* path;
     const char* list;  // null: the path itself must be a list, or an object
     const char* name;
+    bool or_none = false;
 };
 
 constexpr Row kRows[] = {
 #define INDEX(path, list, name) {path, list, name},
+#define INDEX_OR_NONE(path, list, name) {path, list, name, true},
 #define LIST(path) {path, nullptr, nullptr},
 #define OBJECT(path) {path, nullptr, kObject},
 #include "runtime/gltf/file/indices.def"
@@ -55,6 +57,11 @@ const std::vector<std::vector<std::string_view>>& row_tokens() {
     return tokens;
 }
 
+std::string_view last_token(const Row& row) {
+    const std::string_view path = row.path;
+    return path.substr(path.rfind('/') + 1);
+}
+
 bool matches(std::string_view token, const std::string* key) {
     if (!key || token == "*") return !key && token == "*";
     if (token.starts_with('?')) return key->ends_with(token.substr(1));
@@ -77,7 +84,7 @@ class IndexWalk {
     explicit IndexWalk(std::string_view json) : json_(json), scanner_(json) {}
     GltfIndices run() {
         value(~RowSet(0) >> (64 - std::size(kRows)));
-        if (found_.fault_count > 0) found_.mended += json_.substr(copied_);
+        if (!found_.mended.empty()) found_.mended += json_.substr(copied_);
         return std::move(found_);
     }
 
@@ -131,15 +138,43 @@ class IndexWalk {
 
     bool members(RowSet rows) {
         scanner_.take('{');
+        const Row* missing = member_or_none(rows);
+        bool is_empty = true;
         while (std::optional<JsonRange> name = scanner_.string()) {
+            is_empty = false;
             SourceMap map;
             std::string key = json_string(json_, *name, kNoFile, map);
             if (!scanner_.take(':')) return false;
             const RowSet below = matching(rows, path_.size(), &key);
+            if (missing && key == last_token(*missing)) missing = nullptr;
             if (!enter(std::move(key), below)) return false;
             if (!scanner_.take(',')) break;
         }
+        if (scanner_.peek() != '}') return false;
+        if (missing) add_none(*missing, is_empty);
         return scanner_.take('}');
+    }
+
+    // The row of a member that the object has or gets; null where there is none.
+    const Row* member_or_none(RowSet rows) const {
+        for (RowSet left = rows; left != 0; left &= left - 1) {
+            const size_t row = size_t(std::countr_zero(left));
+            if (kRows[row].or_none && row_tokens()[row].size() == path_.size() + 1)
+                return &kRows[row];
+        }
+        return nullptr;
+    }
+
+    // At the end of the object.
+    void add_none(const Row& row, bool is_first) {
+        copy_to(scanner_.at());
+        found_.mended +=
+            fmt::format("{}\"{}\":{}", is_first ? "" : ",", last_token(row), kNoGltfIndex);
+    }
+
+    void copy_to(size_t end) {
+        found_.mended += json_.substr(copied_, end - copied_);
+        copied_ = end;
     }
 
     bool enter(std::string token, RowSet rows) {
@@ -174,7 +209,7 @@ class IndexWalk {
         if (found_.fault_count++ < kMaxGltfFindings)
             found_.faults.push_back(
                 {pointer(), name, std::string(text.substr(0, kQuotedValue)), range});
-        found_.mended += json_.substr(copied_, range.begin - copied_);
+        copy_to(range.begin);
         found_.mended += with;
         copied_ = range.end;
     }

@@ -22,7 +22,7 @@ struct GltfIndices {
     std::string not_a_list;              // pointer to what should be an array and is not, or ""
     std::vector<GltfIndexFault> faults;  // the first kMaxGltfFindings
     size_t fault_count = 0;
-    // The text, with kNoGltfIndex or {} for each faulty value; "" if there is none.
+    // The text, with kNoGltfIndex or {} for each value that is faulty or missing; "" if none is.
     std::string mended;
 };
 

@@ -1,13 +1,17 @@
 // runtime/gltf/import/animations.h: glTF's animations as channels; each is a clip.
 #pragma once
 
+#include <deque>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "anim/animation.h"
 #include "runtime/gltf/import/accessor_reader.h"
 #include "runtime/gltf/import/node_properties.h"
 #include "runtime/gltf/import/node_tree.h"
+#include "runtime/gltf/import/pointer_slots.h"
 #include "runtime/gltf/import/unique_ids.h"
 
 namespace kinora {
@@ -16,11 +20,13 @@ class AnimationImporter {
   public:
     // `slots`: per node, what its channels write.
     AnimationImporter(const tinygltf::Model& model, const GltfNodeTree& tree,
-                      const std::vector<NodeSlots>& slots, AccessorReader& accessors,
-                      GltfReport& report, ByteBudget& budget, SceneDescription& out)
+                      const std::vector<NodeSlots>& slots, const PointerSlots& pointers,
+                      AccessorReader& accessors, GltfReport& report, ByteBudget& budget,
+                      SceneDescription& out)
         : model_(model),
           tree_(tree),
           slots_(slots),
+          pointers_(pointers),
           accessors_(accessors),
           report_(report),
           budget_(budget),
@@ -34,16 +40,37 @@ class AnimationImporter {
 
   private:
     struct Written {  // what a channel writes
-        uint32_t slot = kNone, count = 0, owner = 0;
+        ValueSlot slot;
+        uint32_t owner = 0;
     };
-    Written written_by(const tinygltf::AnimationChannel& channel) const;
-    std::optional<anim::Sampler> sampler_of(uint32_t animation, uint32_t channel, uint32_t stride);
+    struct Output {  // what a sampler is of
+        uint32_t width;
+        double scale = 1;  // of its numbers
+        bool is_rotation = false, is_list = false;
+    };
+    struct Made {  // of one animation
+        std::vector<anim::Sampler> samplers;
+        std::vector<anim::Channel> channels;
+        std::deque<anim::Sampler> values;  // of the file, that formulas read
+        // By follower: the sampler of each of its values, or null.
+        std::map<uint32_t, std::vector<const anim::Sampler*>> formulas;
+    };
+    Written written_by(uint32_t node, const std::string& path) const;
+    std::optional<anim::Sampler> sampler_of(uint32_t animation, uint32_t channel,
+                                            const Output& output);
+    void import_node_channel(uint32_t animation, uint32_t channel, uint32_t node,
+                             const std::string& path, Made& made);
+    void import_pointer(uint32_t animation, uint32_t channel, const std::string& pointer,
+                        Made& made);
+    void import_formulas(uint32_t animation, Made& made);
+    void add_followers(const SlotFollower& follower, anim::Sampler sampler, Made& made) const;
     anim::Animation animation_of(uint32_t index);
     void add_clip(uint32_t animation, std::shared_ptr<const anim::Animation> own, UniqueIds& ids);
 
     const tinygltf::Model& model_;
     const GltfNodeTree& tree_;
     const std::vector<NodeSlots>& slots_;
+    const PointerSlots& pointers_;
     AccessorReader& accessors_;
     GltfReport& report_;
     ByteBudget& budget_;

@@ -8,6 +8,6 @@ namespace kinora {
 
 // `meter`: metres per unit of the world that the description is in.
 void import_cameras(const tinygltf::Model& model, double meter, RslExtras& rsl, UniqueIds& ids,
-                    const GltfReport& report, SceneDescription& out);
+                    PointerSlots& pointers, const GltfReport& report, SceneDescription& out);
 
 }  // namespace kinora

@@ -11,12 +11,16 @@
 
 namespace kinora {
 
-void import_scene_extras(const tinygltf::Model& model, std::span<const uint32_t> clip_of_animation,
-                         RslExtras& rsl, SceneDescription& out) {
+void import_scene_shaders(const tinygltf::Model& model, RslExtras& rsl, SceneDescription& out) {
     if (model.scenes.empty()) return;
     const size_t index = shown_scene(model);
-    const tinygltf::Value& extras = model.scenes[index].extras;
-    out.picture = rsl.picture_shaders(extras, fmt::format("/scenes/{}", index));
+    out.picture = rsl.picture_shaders(model.scenes[index].extras, fmt::format("/scenes/{}", index));
+}
+
+void import_scene_extras(const tinygltf::Model& model, std::span<const uint32_t> clip_of_animation,
+                         SceneDescription& out) {
+    if (model.scenes.empty()) return;
+    const tinygltf::Value& extras = model.scenes[shown_scene(model)].extras;
     auto take = [&](const char* name, std::optional<double>& to) {
         if (std::optional<double> value = number_member(extras, name)) to = value;
     };

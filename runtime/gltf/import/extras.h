@@ -18,9 +18,12 @@ struct KinoraAxes {
 };
 std::optional<KinoraAxes> find_axes(const tinygltf::Model& model, const std::vector<int>& roots);
 
-// The scene's shaders, times and ranges of clips.
+// The scene's shaders.
+void import_scene_shaders(const tinygltf::Model& model, RslExtras& rsl, SceneDescription& out);
+
+// Its times and ranges of clips.
 void import_scene_extras(const tinygltf::Model& model, std::span<const uint32_t> clip_of_animation,
-                         RslExtras& rsl, SceneDescription& out);
+                         SceneDescription& out);
 
 // kinora_attributes of a node: an object of numbers, lists of numbers and strings.
 void import_attributes(const tinygltf::Value& extras, NodeDefinition& to);

@@ -48,12 +48,14 @@ bool import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
     out.meter = options.meter.value_or(axes.meter);
     out.up_axis = options.up_axis.value_or(axes.up);
 
-    TextureImporter textures(file, report, budget, out);
-    RslExtras rsl(file, options, textures, report, diagnostics, out);
-    MaterialImporter materials(model, textures, rsl, report, diagnostics, out);
+    PointerSlots pointers(model);
+    TextureImporter textures(file, pointers, report, budget, out);
+    RslExtras rsl(file, options, textures, pointers, report, diagnostics, out);
+    MaterialImporter materials(model, textures, rsl, pointers, report, diagnostics, out);
     materials.import_materials(ids);
-    import_lights(model, axes.meter, rsl, ids, report, out);
-    import_cameras(model, axes.meter, rsl, ids, report, out);
+    import_lights(model, axes.meter, rsl, ids, pointers, report, out);
+    import_cameras(model, axes.meter, rsl, ids, pointers, report, out);
+    import_scene_shaders(model, rsl, out);
 
     AccessorReader accessors(model, report, budget);
     MeshImporter meshes(model, accessors, report, budget, out.meshes);
@@ -67,9 +69,10 @@ bool import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
     std::vector<uint8_t> moving = moving_properties(model);
     NodeImporter nodes(model, tree, moving, axes.node, materials, morphs, skins, report, out);
     nodes.import_nodes(ids);
-    AnimationImporter animations(model, tree, nodes.slots(), accessors, report, budget, out);
+    AnimationImporter animations(model, tree, nodes.slots(), pointers, accessors, report, budget,
+                                 out);
     animations.import_animations(ids);
-    import_scene_extras(model, animations.clips(), rsl, out);
+    import_scene_extras(model, animations.clips(), out);
     report.finish();
     return true;
 }

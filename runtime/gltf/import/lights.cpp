@@ -16,6 +16,10 @@ namespace {
 
 constexpr double kLumensPerWatt = 683;  // Blender's exporter, its lighting mode "Standard"
 
+// What RSL in extras stands in place of.
+constexpr const char* kValues[] = {"/color", "/intensity", "/range", "/spot/innerConeAngle",
+                                   "/spot/outerConeAngle"};
+
 bool is_blenders(const tinygltf::Model& model) {
     return model.asset.generator.starts_with("Khronos glTF Blender I/O");
 }
@@ -40,7 +44,7 @@ double nits_of_one(const tinygltf::Model& model, GltfReport& report) {
 }  // namespace
 
 void import_lights(const tinygltf::Model& model, double meter, RslExtras& rsl, UniqueIds& ids,
-                   GltfReport& report, SceneDescription& out) {
+                   PointerSlots& pointers, GltfReport& report, SceneDescription& out) {
     double scale = 1 / nits_of_one(model, report);
     for (size_t l = 0; l < model.lights.size(); ++l) {
         const tinygltf::Light& from = model.lights[l];
@@ -50,7 +54,10 @@ void import_lights(const tinygltf::Model& model, double meter, RslExtras& rsl, U
         to.id = ids.id(from.name, "light", l);
         to.where = report.location(pointer);
         to.blender = was_blenders(from.extras);
-        if (rsl.import_light(from.extras, pointer, to)) continue;
+        if (rsl.import_light(from.extras, pointer, to)) {
+            for (const char* value : kValues) pointers.pass_over(pointer + value);
+            continue;
+        }
         to.blender |= is_blenders(model);
         bool known = from.type == "directional" || from.type == "point" || from.type == "spot";
         if (!known) {
@@ -62,19 +69,29 @@ void import_lights(const tinygltf::Model& model, double meter, RslExtras& rsl, U
         std::vector<double> color = {1, 1, 1};
         for (size_t k = 0; k < 3 && k < from.color.size(); ++k)
             if (std::isfinite(from.color[k])) color[k] = std::max(from.color[k], 0.0);
-        set_number(to.shader, "lightcolor", color, out.values);
+        ValueSlot tint = set_number(to.shader, "lightcolor", color, out.values);
+        pointers.follow({pointer + "/color", color}, {tint});
         auto one = [&](const char* param, double value) {
-            set_number(to.shader, param, std::span(&value, 1), out.values);
+            return set_number(to.shader, param, std::span(&value, 1), out.values);
+        };
+        auto follow = [&](const char* member, ValueSlot slot, double unit) {
+            pointers.follow({pointer + member, {out.values[slot.offset]}}, {slot}, unit);
         };
         bool shines = known && std::isfinite(from.intensity) && from.intensity > 0;
-        one("intensity", shines ? from.intensity * scale : 0.0);
+        ValueSlot intensity = one("intensity", shines ? from.intensity * scale : 0.0);
+        if (known)
+            follow("/intensity", intensity, scale);
+        else
+            pointers.pass_over(pointer + "/intensity");
         if (name == "directional") continue;
         if (meter != 1) one("unit", 1 / meter);
-        one("range", std::isfinite(from.range) ? std::max(from.range, 0.0) : 0.0);
+        double range = std::isfinite(from.range) ? std::max(from.range, 0.0) : 0.0;
+        follow("/range", one("range", range), 1);
         if (name != "spot") continue;
         double outer = std::clamp(from.spot.outerConeAngle, 1e-4, kPi / 2);
-        one("outer_angle", outer);
-        one("inner_angle", std::clamp(from.spot.innerConeAngle, 0.0, outer));
+        follow("/spot/outerConeAngle", one("outer_angle", outer), 1);
+        double inner = std::clamp(from.spot.innerConeAngle, 0.0, outer);
+        follow("/spot/innerConeAngle", one("inner_angle", inner), 1);
     }
 }
 

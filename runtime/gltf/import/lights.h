@@ -7,6 +7,6 @@
 namespace kinora {
 
 void import_lights(const tinygltf::Model& model, double meter, RslExtras& rsl, UniqueIds& ids,
-                   GltfReport& report, SceneDescription& out);
+                   PointerSlots& pointers, GltfReport& report, SceneDescription& out);
 
 }  // namespace kinora

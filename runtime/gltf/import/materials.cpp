@@ -16,6 +16,11 @@ namespace kinora {
 
 namespace {
 
+constexpr const char* kBaseColor = "/pbrMetallicRoughness/baseColorFactor";
+constexpr const char* kMetal = "/pbrMetallicRoughness/metallicFactor";
+constexpr const char* kRoughness = "/pbrMetallicRoughness/roughnessFactor";
+constexpr const char* kMetalValues[] = {kBaseColor, kMetal, kRoughness};
+
 // A number of an extension's object, or `otherwise`.
 double extension_number(const tinygltf::ExtensionMap& extensions, const char* extension,
                         const char* name, double otherwise) {
@@ -43,6 +48,12 @@ std::vector<double> factor(const std::vector<double>& numbers, size_t count, dou
     for (size_t k = 0; k < count && k < numbers.size(); ++k)
         if (std::isfinite(numbers[k])) result[k] = std::max(numbers[k], 0.0);
     return result;
+}
+
+// KHR_materials_ior; an ior of 0 reflects all.
+double reflectance(double ior) {
+    double r = (ior - 1) / (ior + 1);
+    return r * r;
 }
 
 // Of tinygltf's TextureInfo, NormalTextureInfo or OcclusionTextureInfo.
@@ -76,13 +87,24 @@ void MaterialImporter::import_material(uint32_t index, UniqueIds& ids) {
     to.name = from.name;
     to.id = ids.id(from.name, "material", index);
     to.hide_backfaces = !from.doubleSided;
+    const size_t first = pointers_.followers().size();
     to.surfaces.push_back(shader_of(from, pointer));
-    if (const tinygltf::Value* rsl = member(from.extras, "kinora_rsl"))
-        inputs_[index] = rsl_.import_material(*rsl, pointer + "/extras/kinora_rsl", to);
+    const size_t end = pointers_.followers().size();
+    const tinygltf::Value* rsl = member(from.extras, "kinora_rsl");
+    if (!rsl) return;
+    const ShaderUse* own = to.surfaces.data();
+    inputs_[index] = rsl_.import_material(*rsl, pointer + "/extras/kinora_rsl", to);
+    if (to.surfaces.data() != own) pointers_.pass_over_from(first, end);  // another list
 }
 
-void MaterialImporter::set_one(ShaderUse& use, const char* name, double value) {
-    set_number(use, name, std::span(&value, 1), out_.values);
+ValueSlot MaterialImporter::set_one(ShaderUse& use, const char* name, double value) {
+    return set_number(use, name, std::span(&value, 1), out_.values);
+}
+
+// A number that is the file's at the pointer.
+void MaterialImporter::set_followed(ShaderUse& use, const char* name, double value,
+                                    const std::string& pointer) {
+    pointers_.follow({pointer, {value}}, {set_one(use, name, value)});
 }
 
 ShaderUse MaterialImporter::shader_of(const tinygltf::Material& from, const std::string& pointer) {
@@ -93,19 +115,24 @@ ShaderUse MaterialImporter::shader_of(const tinygltf::Material& from, const std:
     bool is_glossy = glossy != from.extensions.end();
     std::string own = pointer + "/extensions/" + kSpecularGlossiness;
     if (is_glossy)
-        set_diffuse_base(glossy->second, own, textures_, use, out_.values);
+        set_diffuse_base(glossy->second, own, textures_, pointers_, use, out_.values);
     else
         set_base(from, pointer, use);
     set_string(use, "alpha_mode", from.alphaMode);
-    set_one(use, "alpha_cutoff", std::isfinite(from.alphaCutoff) ? from.alphaCutoff : 0.5);
+    set_followed(use, "alpha_cutoff", std::isfinite(from.alphaCutoff) ? from.alphaCutoff : 0.5,
+                 pointer + "/alphaCutoff");
     if (unlit) return use;
     // A flag, not the roughness itself: what decides the control flow makes a kernel of its own.
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    bool mirrors = pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0;
-    if (is_glossy)
-        mirrors = set_specular_glossiness(glossy->second, own, textures_, use, out_.values);
-    else
+    bool mirrors = pbr.roughnessFactor < 0.5 || pbr.metallicRoughnessTexture.index >= 0 ||
+                   pointers_.is_driven(pointer + kRoughness);
+    if (is_glossy) {
+        for (const char* value : kMetalValues) pointers_.pass_over(pointer + value);
+        mirrors =
+            set_specular_glossiness(glossy->second, own, textures_, pointers_, use, out_.values);
+    } else {
         set_metal(from, pointer, use);
+    }
     set_lit(from, pointer, use);
     if (!is_glossy) set_reflection(from, pointer, use);
     set_one(use, "mirrors", mirrors);
@@ -116,8 +143,9 @@ void MaterialImporter::set_base(const tinygltf::Material& from, const std::strin
                                 ShaderUse& use) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     std::vector<double> base = factor(pbr.baseColorFactor, 4, 1.0);
-    set_number(use, "base_color", std::span(base).first(3), out_.values);
-    set_number(use, "base_alpha", std::span(base).last(1), out_.values);
+    ValueSlot color = set_number(use, "base_color", std::span(base).first(3), out_.values);
+    ValueSlot alpha = set_number(use, "base_alpha", std::span(base).last(1), out_.values);
+    pointers_.follow({pointer + kBaseColor, base}, {color, alpha});
     textures_.set_map(use, "base_color", info_of(pbr.baseColorTexture), false,
                       pointer + "/pbrMetallicRoughness/baseColorTexture");
 }
@@ -125,8 +153,8 @@ void MaterialImporter::set_base(const tinygltf::Material& from, const std::strin
 void MaterialImporter::set_metal(const tinygltf::Material& from, const std::string& pointer,
                                  ShaderUse& use) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-    set_one(use, "metallic", factor({pbr.metallicFactor}, 1, 1.0)[0]);
-    set_one(use, "roughness", factor({pbr.roughnessFactor}, 1, 1.0)[0]);
+    set_followed(use, "metallic", factor({pbr.metallicFactor}, 1, 1.0)[0], pointer + kMetal);
+    set_followed(use, "roughness", factor({pbr.roughnessFactor}, 1, 1.0)[0], pointer + kRoughness);
     textures_.set_map(use, "metallic_roughness", info_of(pbr.metallicRoughnessTexture), true,
                       pointer + "/pbrMetallicRoughness/metallicRoughnessTexture");
 }
@@ -136,29 +164,52 @@ void MaterialImporter::set_lit(const tinygltf::Material& from, const std::string
     auto map = [&](const char* name, const auto& info, bool data, const char* of) {
         textures_.set_map(use, name, info_of(info), data, pointer + of);
     };
-    set_one(use, "normal_scale",
-            std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1);
+    set_followed(use, "normal_scale",
+                 std::isfinite(from.normalTexture.scale) ? from.normalTexture.scale : 1,
+                 pointer + "/normalTexture/scale");
     map("normal", from.normalTexture, true, "/normalTexture");
-    set_one(use, "occlusion_strength", factor({from.occlusionTexture.strength}, 1, 1.0)[0]);
+    set_followed(use, "occlusion_strength", factor({from.occlusionTexture.strength}, 1, 1.0)[0],
+                 pointer + "/occlusionTexture/strength");
     map("occlusion", from.occlusionTexture, true, "/occlusionTexture");
-    double strength = extension_number(from.extensions, "KHR_materials_emissive_strength",
-                                       "emissiveStrength", 1.0);
-    std::vector<double> emissive = factor(from.emissiveFactor, 3, 0.0);
-    for (double& e : emissive) e *= std::max(strength, 0.0);
-    set_number(use, "emissive", emissive, out_.values);
+    set_emission(from, pointer, use);
     map("emissive", from.emissiveTexture, false, "/emissiveTexture");
+}
+
+// The factor times KHR_materials_emissive_strength.
+void MaterialImporter::set_emission(const tinygltf::Material& from, const std::string& pointer,
+                                    ShaderUse& use) {
+    constexpr const char* kExtension = "KHR_materials_emissive_strength";
+    double strength =
+        std::max(extension_number(from.extensions, kExtension, "emissiveStrength", 1.0), 0.0);
+    FileValue color{pointer + "/emissiveFactor", factor(from.emissiveFactor, 3, 0.0)};
+    std::vector<double> emissive = color.rest;
+    for (double& e : emissive) e *= strength;
+    ValueSlot slot = set_number(use, "emissive", emissive, out_.values);
+    FileValue times{fmt::format("{}/extensions/{}/emissiveStrength", pointer, kExtension),
+                    {strength}};
+    if (!pointers_.is_driven(times.pointer))
+        return pointers_.follow(std::move(color), {slot}, strength);
+    pointers_.follow({std::move(color), std::move(times)}, {slot},
+                     [](auto values, double* numbers) {
+                         for (size_t k = 0; k < 3; ++k) numbers[k] = values[0][k] * values[1][0];
+                     });
 }
 
 // KHR_materials_ior and KHR_materials_specular.
 void MaterialImporter::set_reflection(const tinygltf::Material& from, const std::string& pointer,
                                       ShaderUse& use) {
     double ior = extension_number(from.extensions, "KHR_materials_ior", "ior", 1.5);
-    double r = (ior - 1) / (ior + 1);  // KHR_materials_ior; an ior of 0 reflects all
-    set_one(use, "dielectric_F0", r * r);
+    ValueSlot reflected = set_one(use, "dielectric_F0", reflectance(ior));
+    pointers_.follow({{pointer + "/extensions/KHR_materials_ior/ior", {ior}}}, {reflected},
+                     [](auto values, double* number) { *number = reflectance(values[0][0]); });
     constexpr const char* kSpecular = "KHR_materials_specular";
-    set_one(use, "specular", extension_number(from.extensions, kSpecular, "specularFactor", 1.0));
-    set_number(use, "specular_color",
-               extension_color(from.extensions, kSpecular, "specularColorFactor"), out_.values);
+    std::string own = fmt::format("{}/extensions/{}/", pointer, kSpecular);
+    set_followed(use, "specular",
+                 extension_number(from.extensions, kSpecular, "specularFactor", 1.0),
+                 own + "specularFactor");
+    std::vector<double> tint = extension_color(from.extensions, kSpecular, "specularColorFactor");
+    pointers_.follow({own + "specularColorFactor", tint},
+                     {set_number(use, "specular_color", tint, out_.values)});
     auto found = from.extensions.find(kSpecular);
     if (found != from.extensions.end() &&
         (found->second.Has("specularTexture") || found->second.Has("specularColorTexture")))

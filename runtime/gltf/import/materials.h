@@ -13,10 +13,12 @@ namespace kinora {
 class MaterialImporter {
   public:
     MaterialImporter(const tinygltf::Model& model, TextureImporter& textures, RslExtras& rsl,
-                     GltfReport& report, Diagnostics& diagnostics, SceneDescription& out)
+                     PointerSlots& pointers, GltfReport& report, Diagnostics& diagnostics,
+                     SceneDescription& out)
         : model_(model),
           textures_(textures),
           rsl_(rsl),
+          pointers_(pointers),
           report_(report),
           diagnostics_(diagnostics),
           out_(out) {}
@@ -35,12 +37,15 @@ class MaterialImporter {
     void set_base(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
     void set_metal(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
     void set_lit(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
+    void set_emission(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
     void set_reflection(const tinygltf::Material& from, const std::string& pointer, ShaderUse& use);
-    void set_one(ShaderUse& use, const char* name, double value);
+    ValueSlot set_one(ShaderUse& use, const char* name, double value);
+    void set_followed(ShaderUse& use, const char* name, double value, const std::string& pointer);
 
     const tinygltf::Model& model_;
     TextureImporter& textures_;
     RslExtras& rsl_;
+    PointerSlots& pointers_;
     GltfReport& report_;
     Diagnostics& diagnostics_;
     SceneDescription& out_;

@@ -124,9 +124,9 @@ std::vector<ShaderUse> RslExtras::read_stage(const tinygltf::Value& object, cons
     std::vector<ShaderUse> uses;
     const tinygltf::Value* value = member(object, stage);
     if (!value) return uses;
-    const tinygltf::Value* params = member(object, "params");
+    const SharedParams shared{member(object, "params"), pointer + "/params/"};
     auto add = [&](const tinygltf::Value& layer, const std::string& layer_pointer) {
-        ShaderUse use = read_layer(layer, params, kind, layer_pointer);
+        ShaderUse use = read_layer(layer, shared, kind, layer_pointer);
         if (use.shader) uses.push_back(std::move(use));
     };
     std::string own = pointer + "/" + stage;
@@ -136,8 +136,8 @@ std::vector<ShaderUse> RslExtras::read_stage(const tinygltf::Value& object, cons
     return uses;
 }
 
-// No shader where there is none of that kind. `params` are those of all layers.
-ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Value* params,
+// No shader where there is none of that kind.
+ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const SharedParams& shared,
                                 rsl::ShaderKind kind, const std::string& pointer) {
     ShaderUse use;
     const tinygltf::Value* co_shaders = member(layer, "coshaders");
@@ -157,7 +157,7 @@ ShaderUse RslExtras::read_layer(const tinygltf::Value& layer, const tinygltf::Va
     if (co_shaders || rsl::other_lengths(*use.shader, link_counts(layer, "")))
         use.shader = as_kind(linked(layer, co_shaders, code, *use.shader, pointer), kind);
     if (!use.shader) return use;
-    set_params(layer, params, pointer, use);
+    set_params(layer, shared, pointer, use);
     if (const tinygltf::Value* sets = member(layer, "texcoords"))
         for (ParamSource& source : use.params)
             if (const tinygltf::Value* set = member(*sets, source.name.c_str()))
@@ -282,7 +282,7 @@ std::shared_ptr<const rsl::Shader> RslExtras::linked(const tinygltf::Value& laye
 }
 
 // Those of the layer itself, then those of all layers that this shader has.
-void RslExtras::set_params(const tinygltf::Value& layer, const tinygltf::Value* params,
+void RslExtras::set_params(const tinygltf::Value& layer, const SharedParams& shared,
                            const std::string& pointer, ShaderUse& use) {
     if (const tinygltf::Value* own = member(layer, "params"))
         for (const std::string& key : member_names(*own)) {
@@ -292,10 +292,10 @@ void RslExtras::set_params(const tinygltf::Value& layer, const tinygltf::Value* 
             else if (!is_linked(layer, *use.shader, key))
                 report_unknown(*use.shader, key, param_pointer);
         }
-    if (params)
-        for (const std::string& key : member_names(*params))
+    if (shared.values)
+        for (const std::string& key : member_names(*shared.values))
             if (find_parameter(*use.shader, key))
-                set_param(use, key, params->Get(key), pointer + "/params/" + key);
+                set_param(use, key, shared.values->Get(key), shared.pointer + key);
 }
 
 void RslExtras::set_param(ShaderUse& use, const std::string& name, const tinygltf::Value& value,
@@ -322,6 +322,7 @@ void RslExtras::set_param(ShaderUse& use, const std::string& name, const tinyglt
         if (!fits) return refuse(fmt::format("{} numbers", numbers.size()));
         source.value = {append_values(out_.values, numbers, numbers.size()),
                         uint32_t(numbers.size())};
+        pointers_.follow({pointer, numbers}, {source.value});
     }
     use.params.push_back(std::move(source));
 }

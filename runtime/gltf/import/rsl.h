@@ -14,10 +14,12 @@ namespace kinora {
 class RslExtras {
   public:
     RslExtras(const GltfFile& file, const ImportOptions& options, TextureImporter& textures,
-              GltfReport& report, Diagnostics& diagnostics, SceneDescription& out)
+              PointerSlots& pointers, GltfReport& report, Diagnostics& diagnostics,
+              SceneDescription& out)
         : file_(file),
           options_(options),
           textures_(textures),
+          pointers_(pointers),
           report_(report),
           diagnostics_(diagnostics),
           out_(out) {}
@@ -41,7 +43,11 @@ class RslExtras {
 
     std::vector<ShaderUse> read_stage(const tinygltf::Value& object, const char* stage,
                                       rsl::ShaderKind kind, const std::string& pointer);
-    ShaderUse read_layer(const tinygltf::Value& layer, const tinygltf::Value* params,
+    struct SharedParams {  // those of all layers
+        const tinygltf::Value* values;
+        std::string pointer;
+    };
+    ShaderUse read_layer(const tinygltf::Value& layer, const SharedParams& shared,
                          rsl::ShaderKind kind, const std::string& pointer);
     struct LayerCode {
         std::string text;  // "" of a shader of the program's own
@@ -57,7 +63,7 @@ class RslExtras {
                                               const tinygltf::Value* co_shaders,
                                               const LayerCode& code, const rsl::Shader& shader,
                                               const std::string& pointer);
-    void set_params(const tinygltf::Value& layer, const tinygltf::Value* params,
+    void set_params(const tinygltf::Value& layer, const SharedParams& shared,
                     const std::string& pointer, ShaderUse& use);
     void set_param(ShaderUse& use, const std::string& name, const tinygltf::Value& value,
                    const std::string& pointer);
@@ -70,6 +76,7 @@ class RslExtras {
     const GltfFile& file_;
     const ImportOptions& options_;
     TextureImporter& textures_;
+    PointerSlots& pointers_;
     GltfReport& report_;
     Diagnostics& diagnostics_;
     SceneDescription& out_;

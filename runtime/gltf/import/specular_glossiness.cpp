@@ -43,28 +43,34 @@ bool set_texture(const tinygltf::Value& extension, const char* name, const char*
 }  // namespace
 
 void set_diffuse_base(const tinygltf::Value& extension, const std::string& pointer,
-                      TextureImporter& textures, ShaderUse& use, std::vector<double>& values) {
+                      TextureImporter& textures, PointerSlots& pointers, ShaderUse& use,
+                      std::vector<double>& values) {
     std::vector<double> diffuse = factor(extension, "diffuseFactor", 4);
-    set_number(use, "base_color", std::span(diffuse).first(3), values);
-    set_number(use, "base_alpha", std::span(diffuse).last(1), values);
+    ValueSlot color = set_number(use, "base_color", std::span(diffuse).first(3), values);
+    ValueSlot alpha = set_number(use, "base_alpha", std::span(diffuse).last(1), values);
+    pointers.follow({pointer + "/diffuseFactor", diffuse}, {color, alpha});
     set_texture(extension, "diffuseTexture", "base_color", pointer, textures, use);
 }
 
 bool set_specular_glossiness(const tinygltf::Value& extension, const std::string& pointer,
-                             TextureImporter& textures, ShaderUse& use,
+                             TextureImporter& textures, PointerSlots& pointers, ShaderUse& use,
                              std::vector<double>& values) {
     auto set_one = [&](const char* name, double value) {
-        set_number(use, name, std::span(&value, 1), values);
+        return set_number(use, name, std::span(&value, 1), values);
     };
     double glossiness = factor(extension, "glossinessFactor", 1)[0];
     set_one("metallic", 0);
-    set_one("roughness", 1 - glossiness);
+    const FileValue gloss{pointer + "/glossinessFactor", {glossiness}};
+    pointers.follow({gloss}, {set_one("roughness", 1 - glossiness)},
+                    [](auto given, double* roughness) { *roughness = 1 - given[0][0]; });
     set_one("specular_glossiness", 1);
     set_one("dielectric_F0", 1);  // times the specular color
-    set_number(use, "specular_color", factor(extension, "specularFactor", 3), values);
+    std::vector<double> specular = factor(extension, "specularFactor", 3);
+    pointers.follow({pointer + "/specularFactor", specular},
+                    {set_number(use, "specular_color", specular, values)});
     bool mapped = set_texture(extension, "specularGlossinessTexture", "specular_glossiness",
                               pointer, textures, use);
-    return mapped || glossiness > 0.5;
+    return mapped || glossiness > 0.5 || pointers.is_driven(gloss.pointer);
 }
 
 }  // namespace kinora

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -37,6 +38,15 @@ double element(const tinygltf::Value& object, const char* name, int index, doubl
     if (size_t(index) >= array.ArrayLen() || !array.Get(index).IsNumber()) return otherwise;
     double value = array.Get(index).GetNumberAsDouble();
     return std::isfinite(value) ? value : otherwise;
+}
+
+// uv' = offset + R(rotation) (scale uv), v and angle downwards and counter-clockwise as
+// KHR_texture_transform's matrices have it; with t = 1 - v, row by row of (s, t, 1).
+void transform_rows(const std::vector<double>& offset, double angle,
+                    const std::vector<double>& scale, double* rows) {
+    double c = std::cos(angle), s = std::sin(angle);
+    double u_u = c * scale[0], u_v = s * scale[1], v_u = -s * scale[0], v_v = c * scale[1];
+    std::ranges::copy(std::array{u_u, -u_v, offset[0] + u_v, -v_u, v_v, 1 - offset[1] - v_v}, rows);
 }
 
 void apply_sampler(const tinygltf::Sampler& sampler, TextureName& name) {
@@ -123,6 +133,25 @@ std::string TextureImporter::texture_name(int texture, bool data) {
     return texture_name_string(name);
 }
 
+void TextureImporter::set_transform(ShaderUse& use, const std::string& name,
+                                    const tinygltf::Value& transform, const std::string& pointer) {
+    const std::vector<FileValue> values = {
+        {pointer + "/offset",
+         {element(transform, "offset", 0, 0), element(transform, "offset", 1, 0)}},
+        {pointer + "/rotation", {number_member(transform, "rotation").value_or(0)}},
+        {pointer + "/scale",
+         {element(transform, "scale", 0, 1), element(transform, "scale", 1, 1)}}};
+    double rows[6];
+    transform_rows(values[0].rest, values[1].rest[0], values[2].rest, rows);
+    std::vector<ValueSlot> slots;
+    constexpr const char* kNames[] = {"_ss", "_st", "_so", "_ts", "_tt", "_to"};
+    for (size_t k = 0; k < 6; ++k)
+        slots.push_back(set_number(use, name + kNames[k], std::span(&rows[k], 1), out_.values));
+    pointers_.follow(values, slots, [](std::span<const std::vector<double>> v, double* numbers) {
+        transform_rows(v[0], v[1][0], v[2], numbers);
+    });
+}
+
 // X_map and what goes with it (assets/shaders/gltf_pbr.sl).
 void TextureImporter::set_map(ShaderUse& use, const std::string& name, const GltfTextureInfo& info,
                               bool data, const std::string& pointer) {
@@ -132,20 +161,9 @@ void TextureImporter::set_map(ShaderUse& use, const std::string& name, const Glt
     int set = info.set;
     auto found = info.extensions.find("KHR_texture_transform");
     if (found != info.extensions.end() && found->second.IsObject()) {
-        // uv' = offset + R(rotation) (scale uv), v and angle downwards and counter-clockwise as the
-        // extension's matrices have it; with t = 1 - v, row by row of (s, t, 1).
-        const tinygltf::Value& transform = found->second;
-        double ox = element(transform, "offset", 0, 0), oy = element(transform, "offset", 1, 0);
-        double sx = element(transform, "scale", 0, 1), sy = element(transform, "scale", 1, 1);
-        double angle = number_member(transform, "rotation").value_or(0);
-        double c = std::cos(angle), s = std::sin(angle);
-        double u_u = c * sx, u_v = s * sy, v_u = -s * sx, v_v = c * sy;
-        const double rows[6] = {u_u, -u_v, ox + u_v, -v_u, v_v, 1 - oy - v_v};
-        constexpr const char* kNames[] = {"_ss", "_st", "_so", "_ts", "_tt", "_to"};
-        for (size_t k = 0; k < 6; ++k)
-            set_number(use, name + kNames[k], std::span(&rows[k], 1), out_.values);
-        if (transform.Has("texCoord"))
-            set = int(number_member(transform, "texCoord").value_or(set));
+        set_transform(use, name, found->second, pointer + "/extensions/KHR_texture_transform");
+        if (found->second.Has("texCoord"))
+            set = int(number_member(found->second, "texCoord").value_or(set));
     }
     ParamSource source;
     source.name = name + "_map";

@@ -10,6 +10,7 @@
 #include "runtime/base/picture_search.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/gltf/file/byte_budget.h"
+#include "runtime/gltf/import/pointer_slots.h"
 
 namespace kinora {
 
@@ -22,8 +23,9 @@ struct GltfTextureInfo {
 class TextureImporter {
   public:
     // Moves images out of file.model.
-    TextureImporter(GltfFile& file, GltfReport& report, ByteBudget& budget, SceneDescription& out)
-        : file_(file), report_(report), budget_(budget), out_(out) {}
+    TextureImporter(GltfFile& file, PointerSlots& pointers, GltfReport& report, ByteBudget& budget,
+                    SceneDescription& out)
+        : file_(file), pointers_(pointers), report_(report), budget_(budget), out_(out) {}
 
     // The name of a texture (texture_name.h); "" where it cannot be read.
     std::string texture_name(int texture, bool data);
@@ -33,10 +35,13 @@ class TextureImporter {
                  const std::string& pointer);
 
   private:
+    void set_transform(ShaderUse& use, const std::string& name, const tinygltf::Value& transform,
+                       const std::string& pointer);
     std::string image_path(int image);
     std::string find_picture(const std::string& uri, const std::string& pointer);
 
     GltfFile& file_;
+    PointerSlots& pointers_;
     GltfReport& report_;
     ByteBudget& budget_;
     SceneDescription& out_;

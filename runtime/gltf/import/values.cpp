@@ -12,12 +12,13 @@ uint32_t append_values(std::vector<double>& values, std::span<const double> numb
     return offset;
 }
 
-void set_number(ShaderUse& use, const std::string& name, std::span<const double> numbers,
-                std::vector<double>& values) {
+ValueSlot set_number(ShaderUse& use, const std::string& name, std::span<const double> numbers,
+                     std::vector<double>& values) {
     ParamSource source;
     source.name = name;
     source.value = {append_values(values, numbers, numbers.size()), uint32_t(numbers.size())};
     use.params.push_back(std::move(source));
+    return use.params.back().value;
 }
 
 void set_string(ShaderUse& use, const std::string& name, std::string text) {

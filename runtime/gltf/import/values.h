@@ -12,9 +12,9 @@ namespace kinora {
 // Returns their offset. Zeros pad them to `room`, so that one owner's channels touch no other's.
 uint32_t append_values(std::vector<double>& values, std::span<const double> numbers, size_t room);
 
-// Gives a parameter of a shader numbers or a string.
-void set_number(ShaderUse& use, const std::string& name, std::span<const double> numbers,
-                std::vector<double>& values);
+// Gives a parameter of a shader numbers, whose slot it returns, or a string.
+ValueSlot set_number(ShaderUse& use, const std::string& name, std::span<const double> numbers,
+                     std::vector<double>& values);
 void set_string(ShaderUse& use, const std::string& name, std::string text);
 
 }  // namespace kinora
