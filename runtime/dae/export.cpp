@@ -144,8 +144,6 @@ const std::string& ColladaExporter::told(const std::string& text, const std::str
 
 std::span<const double> ColladaExporter::values(ValueSlot slot) const {
     if (!slot.present()) return {};
-    size_t own = description_.values.size();
-    if (slot.offset >= own) return std::span(more_values_).subspan(slot.offset - own, slot.count);
     return std::span(description_.values).subspan(slot.offset, slot.count);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/curves/reduce_keys.h"
 #include "runtime/dae/export_animation_p.h"
 #include "runtime/dae/export_p.h"
 #include "runtime/description/findings.h"
@@ -15,6 +16,41 @@ namespace kinora {
 namespace {
 
 constexpr double kAxisError = 3e-7;  // of a unit axis; glTF's quaternions are floats
+constexpr double kMadeError = 1e-4;  // of made numbers, of the range that they move over
+
+// Keys of all channels, and whether they are steps alone.
+std::vector<double> keys_of(const std::vector<MovingChannel>& channels, bool& steps) {
+    std::vector<double> times;
+    steps = true;
+    for (const MovingChannel& c : channels) {
+        times.insert(times.end(), c.sampler->times.begin(), c.sampler->times.end());
+        for (size_t k = 0; k + 1 < c.sampler->times.size(); ++k)
+            steps &= c.sampler->interpolations[k] == anim::Interpolation::Step;
+    }
+    std::ranges::sort(times);
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
+// What has a number, for findings: "material 'brass'" and the name of its parameter; none where
+// nothing has.
+std::pair<std::string, std::string> owner_of(const SceneDescription& d, uint32_t number) {
+    auto among = [&](const std::vector<ShaderUse>& uses) -> const ParamSource* {
+        for (const ShaderUse& use : uses)
+            for (const ParamSource& p : use.params)
+                if (p.value.present() && number - p.value.offset < p.value.count) return &p;
+        return nullptr;
+    };
+    for (const MaterialDefinition& m : d.materials)
+        for (const auto* uses : {&m.transformations, &m.displacements, &m.surfaces, &m.interior,
+                                 &m.exterior, &m.lights})
+            if (const ParamSource* p = among(*uses))
+                return {fmt::format("material '{}'", m.id), p->name};
+    for (const LightDefinition& l : d.lights)
+        if (const ParamSource* p = among({l.shader}))
+            return {fmt::format("light '{}'", l.id), p->name};
+    return {};
+}
 
 }  // namespace
 
@@ -26,7 +62,10 @@ std::string UniqueNames::name(const std::string& wanted, const char* kind) {
 }
 
 AnimationWriter::AnimationWriter(const SceneDescription& description, UniqueNames& names)
-    : description_(description), names_(names), animated_(description.animated) {
+    : description_(description),
+      names_(names),
+      animated_(description.animated),
+      values_(description) {
     animated_.resize(description.values.size(), false);
     for (const ClipDefinition& clip : description.clips)
         if (clip.animation)
@@ -56,6 +95,102 @@ void AnimationWriter::name(ValueSlot slot, const std::string& target, const char
         else if (slot.count != 1)
             t.member = fmt::format("({})", i);
     }
+}
+
+// Calls f(animation, clip) for those of the clips, and for the scene's (kNone).
+template <class F>
+void AnimationWriter::for_each_animation(F&& f) const {
+    for (uint32_t k = 0; k < description_.clips.size(); ++k)
+        if (const auto& own = description_.clips[k].animation) f(*own, k);
+    f(description_.animation, kNone);
+}
+
+bool AnimationWriter::is_changed_by(const anim::Animation& animation, ValueSlot slot,
+                                    const NumbersAt& numbers) {
+    std::vector<MovingChannel> channels = channels_of(description_, animation, {&slot, 1});
+    bool steps, changes = false;
+    const std::vector<double> rest = numbers(description_.values);
+    for (double time : keys_of(channels, steps)) {
+        values_.evaluate(channels, time);
+        changes |= numbers(values_.values()) != rest;
+    }
+    values_.to_rest(channels);
+    return changes;
+}
+
+Keys AnimationWriter::made_keys(const std::vector<MovingChannel>& channels,
+                                const NumbersAt& numbers) {
+    Curve curve;
+    curve.width = uint32_t(numbers(description_.values).size());
+    curve.at = [&](double time, double* out) {
+        values_.evaluate(channels, time);
+        std::ranges::copy(numbers(values_.values()), out);
+    };
+    bool steps;
+    const std::vector<double> times = keys_of(channels, steps);
+    StraightKeys made;
+    double moves = 0;
+    for (double time : times) {
+        std::vector<double>& all = made.numbers;
+        all.resize(all.size() + curve.width);
+        curve.at(time, &all[all.size() - curve.width]);
+        moves = std::max(moves, curve.distance(all.data(), &all[all.size() - curve.width]));
+    }
+    made.times = times;
+    if (!steps) made = reduce_keys(curve, times, kMadeError * moves);
+    values_.to_rest(channels);
+    Keys keys;
+    keys.stride = curve.width;
+    keys.values = std::move(made.numbers);
+    for (double time : made.times) keys.add(time, steps ? "STEP" : "LINEAR");
+    return keys;
+}
+
+// A curve for each number that is another one at some key.
+void AnimationWriter::add_made(const std::string& target, const Keys& keys,
+                               const std::vector<double>& rest, uint32_t first, uint32_t clip) {
+    for (uint32_t i = 0; i < keys.stride; ++i) {
+        Keys own;
+        bool changes = false;
+        own.times = keys.times;
+        own.interpolations = keys.interpolations;
+        for (size_t k = 0; k < keys.times.size(); ++k) {
+            own.values.push_back(keys.values[k * keys.stride + i]);
+            changes |= own.values.back() != rest[i];
+        }
+        if (changes)
+            curves_.add({target + made_[first + i].member,
+                         std::move(own),
+                         {uint32_t(description_.values.size()) + first + i},
+                         {}},
+                        clip);
+    }
+}
+
+bool AnimationWriter::name_made(const std::string& target, std::span<const ValueSlot> slots,
+                                const NumbersAt& numbers) {
+    const std::vector<double> rest = numbers(description_.values);
+    const uint32_t first = uint32_t(made_.size());
+    bool changes = false;
+    for_each_animation([&](const anim::Animation& animation, uint32_t clip) {
+        std::vector<ValueSlot> moving;
+        for (ValueSlot slot : slots)
+            if (is_changed_by(animation, slot, numbers)) moving.push_back(slot);
+        if (moving.empty()) return;
+        for (size_t i = 0; !changes && i < rest.size(); ++i) {
+            Target& made = made_.emplace_back();
+            made.path = target;
+            if (rest.size() > 1) made.member = fmt::format("({})", i);
+            made_rest_.push_back(rest[i]);
+        }
+        changes = true;
+        for (ValueSlot slot : moving)
+            for (uint32_t i = 0; i < slot.count; ++i)
+                made_of_.insert(written_slot(description_, slot).offset + i);
+        std::vector<MovingChannel> channels = channels_of(description_, animation, moving);
+        add_made(target, made_keys(channels, numbers), rest, first, clip);
+    });
+    return changes;
 }
 
 // Of the scene and of all clips.
@@ -116,7 +251,7 @@ void AnimationWriter::for_each_curve(const anim::Animation& animation, F&& add) 
         auto first = targets_.find(c.slot);
         if (s.empty()) continue;
         if (first == targets_.end()) {
-            unnamed_.insert(c.slot);
+            if (!made_of_.contains(c.slot)) unnamed_.insert(c.slot);
             continue;
         }
         const Target& target = first->second;
@@ -137,9 +272,9 @@ void AnimationWriter::for_each_curve(const anim::Animation& animation, F&& add) 
         }
         for (uint32_t i = 0; i < c.count; ++i) {
             auto one = targets_.find(numbers[i]);
-            if (one == targets_.end())
+            if (one == targets_.end() && !made_of_.contains(numbers[i]))
                 unnamed_.insert(numbers[i]);
-            else
+            else if (one != targets_.end())
                 add({one->second.path + one->second.member,
                      component_keys(s, c.component + i),
                      {numbers[i]},
@@ -161,6 +296,15 @@ void AnimationWriter::hold_still(Diagnostics& diagnostics) {
     }
     double begin = anim::time_range(description_.animation).begin;
     for (uint32_t number : alone) {
+        if (number >= description_.values.size()) {
+            const uint32_t own = number - uint32_t(description_.values.size());
+            WrittenCurve still{made_[own].path + made_[own].member, {}, {number}, {}};
+            still.keys.add(begin, "STEP");
+            still.keys.values.push_back(made_rest_[own]);
+            curves_.add(still, clip);
+            curves_.add(std::move(still), kNone);
+            continue;
+        }
         auto found = targets_.find(number);
         if (found == targets_.end()) continue;  // the x of a quaternion stands for all of it
         const Target& target = found->second;
@@ -182,19 +326,25 @@ void AnimationWriter::hold_still(Diagnostics& diagnostics) {
 }
 
 CurveList::Text AnimationWriter::text(Diagnostics& diagnostics) {
-    for (uint32_t k = 0; k < description_.clips.size(); ++k)
-        if (const auto& own = description_.clips[k].animation)
-            for_each_curve(*own, [&](WrittenCurve curve) { curves_.add(std::move(curve), k); });
-    for_each_curve(description_.animation,
-                   [&](WrittenCurve curve) { curves_.add(std::move(curve), kNone); });
+    for_each_animation([&](const anim::Animation& animation, uint32_t clip) {
+        for_each_curve(animation, [&](WrittenCurve curve) { curves_.add(std::move(curve), clip); });
+    });
     hold_still(diagnostics);
-    if (!unnamed_.empty())
-        diagnostics.report(Code::CONVERT_LOST, Location{}, "the animation",
-                           fmt::format("{} animated parameters", unnamed_.size()));
+    report_unnamed(diagnostics);
     if (!sampled_.empty())
         diagnostics.report(Code::CONVERT_SAMPLED, Location{}, sampled_.size(),
                            1.0 / (kPiecesOfCurve * kPiecesOfCurve));
     return curves_.text(description_, names_);
+}
+
+// A number that nothing has is none that is shown.
+void AnimationWriter::report_unnamed(Diagnostics& diagnostics) const {
+    std::set<std::pair<std::string, std::string>> lost;
+    for (uint32_t number : unnamed_) lost.insert(owner_of(description_, number));
+    for (const auto& [owner, name] : lost)
+        if (!owner.empty())
+            diagnostics.report(Code::CONVERT_LOST, Location{}, owner,
+                               fmt::format("its animated '{}'", name));
 }
 
 // The range that is played, where a reader would not find it in the keys.

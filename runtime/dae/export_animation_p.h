@@ -1,6 +1,7 @@
 // runtime/dae/export_animation_p.h: channels as <animation>s, and what they need of their targets.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/curves/channels.h"
 #include "runtime/dae/export_clips_p.h"
 #include "runtime/description/scene_description.h"
 
@@ -22,6 +24,9 @@ class UniqueNames {
     std::set<std::string> taken_;
 };
 
+// Numbers of an element, made of the description's values at a time.
+using NumbersAt = std::function<std::vector<double>(const std::vector<double>& values)>;
+
 // Elements say which numbers they hold; text() then addresses those that channels write.
 class AnimationWriter {
   public:
@@ -31,6 +36,10 @@ class AnimationWriter {
     bool moves(ValueSlot slot) const;
     // Names the numbers: `target` alone, with `members` behind it, or with an index.
     void name(ValueSlot slot, const std::string& target, const char* const* members);
+
+    // Names numbers that are made of slots; they are sampled. False where they never change.
+    bool name_made(const std::string& target, std::span<const ValueSlot> slots,
+                   const NumbersAt& numbers);
 
     // The unit axis about which a quaternion turns at all times. Nothing: another at each time.
     std::optional<dvec3> hinge(uint32_t quaternion) const;
@@ -52,6 +61,13 @@ class AnimationWriter {
     };
     std::vector<const anim::Sampler*> samplers_of(uint32_t quaternion) const;
     template <class F>
+    void for_each_animation(F&& f) const;
+    bool is_changed_by(const anim::Animation& animation, ValueSlot slot, const NumbersAt& numbers);
+    Keys made_keys(const std::vector<MovingChannel>& channels, const NumbersAt& numbers);
+    void add_made(const std::string& target, const Keys& keys, const std::vector<double>& rest,
+                  uint32_t first, uint32_t clip);
+    void report_unnamed(Diagnostics& diagnostics) const;
+    template <class F>
     void for_each_curve(const anim::Animation& animation, F&& add);
     void hold_still(Diagnostics& diagnostics);
 
@@ -60,6 +76,10 @@ class AnimationWriter {
     std::map<uint32_t, Target> targets_;  // by offset in values
     std::vector<bool> animated_;          // per value: by the scene or a clip
     std::set<uint32_t> unnamed_, sampled_;
+    ValuesAtTime values_;
+    std::set<uint32_t> made_of_;     // values that made numbers follow
+    std::vector<Target> made_;       // by their numbers in curves_, behind the values'
+    std::vector<double> made_rest_;  // likewise
     CurveList curves_;
 };
 

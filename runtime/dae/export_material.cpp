@@ -105,8 +105,7 @@ ValueSlot ColladaExporter::written(ValueSlot color) const {
 }
 
 // `factor` times the colour, white where there is none, as COLLADA's <color> says it.
-std::vector<double> ColladaExporter::display_color(ValueSlot color, double factor) const {
-    std::span<const double> v = values(color);
+std::vector<double> ColladaExporter::display_color(std::span<const double> v, double factor) const {
     bool grey = v.size() < 3;
     dvec3 linear = v.empty() ? dvec3(1.0) : dvec3(v[0], v[grey ? 0 : 1], v[grey ? 0 : 2]);
     dvec3 display = short_display_color(factor * linear, 1e-12);
@@ -169,8 +168,9 @@ std::string ColladaExporter::texture(const ParamSource& map, const std::string& 
 }
 
 // The map of normals or heights of a COLLADA model, as the extra that exporters write.
-std::string ColladaExporter::bump(const ShaderUse& use, const std::string& effect,
+std::string ColladaExporter::bump(const SeenSurface& seen, const std::string& effect,
                                   std::string& params) {
+    const ShaderUse& use = seen.use;
     const ParamSource* map = source_of(use, "bump_map");
     if (!map || map->strings.empty() || map->strings[0].empty()) return "";
     const ParamSource* kind = source_of(use, "bump_kind");
@@ -178,8 +178,9 @@ std::string ColladaExporter::bump(const ShaderUse& use, const std::string& effec
     bool normals = kind && !kind->strings.empty() && kind->strings[0] == "NORMALMAP";
     std::string extra;
     if (amount && amount->value.present())
-        extra = xml("technique", attribute("profile", "MAX3D"),
-                    xml("amount", "", number_text(values(amount->value))));
+        extra =
+            xml("technique", attribute("profile", "MAX3D"),
+                xml("amount", "", number_text(seen.numbers(amount->value, description_.values))));
     return xml("extra", "",
                xml("technique", attribute("profile", "FCOLLADA"),
                    xml("bump", attribute("bumptype", normals ? "NORMALMAP" : "HEIGHTFIELD"),
@@ -187,80 +188,131 @@ std::string ColladaExporter::bump(const ShaderUse& use, const std::string& effec
 }
 
 // The same surface by the two modes of <transparent> that COLLADA 1.4.1 has: A_ONE and RGB_ZERO.
-ShaderUse ColladaExporter::in_modes_of_1_4(ShaderUse use, const std::string& effect) {
+void ColladaExporter::in_modes_of_1_4(SeenSurface& seen, std::span<const double> values,
+                                      const std::string& effect) {
+    ShaderUse& use = seen.use;
     const ParamSource* mode = source_of(use, "opaque");
     std::string opaque = mode && !mode->strings.empty() ? mode->strings[0] : "NONE";
-    if (opaque == "A_ONE" || opaque == "RGB_ZERO") return use;
+    if (opaque == "A_ONE" || opaque == "RGB_ZERO") return;
     auto number = [&](const char* name) {
         const ParamSource* p = source_of(use, name);
-        return p && p->value.present() ? values(p->value) : std::span<const double>();
+        return p && p->value.present() ? seen.numbers(p->value, values) : std::span<const double>();
     };
     std::span<const double> color = number("transparent"), alpha = number("transparent_alpha");
     double scale = number("transparency").empty() ? 1 : number("transparency")[0];
-    dvec4 seen(1.0);
+    dvec4 opacity(1.0);
     for (size_t k = 0; k < 3 && !color.empty(); ++k)
-        seen[int(k)] = color[std::min(k, color.size() - 1)];
-    if (!alpha.empty()) seen.w = alpha[0];
-    bool plain = !source_of(use, "transparent_map");
-    for (const ParamSource& p : use.params)
-        for (uint32_t k = 0; p.name.starts_with("transparen") && k < p.value.count; ++k)
-            plain &= !description_.animated[p.value.offset + k];
-    if (!plain && opaque != "NONE") {
-        lost(fmt::format("effect '{}'", effect),
-             fmt::format("opaque=\"{}\" of a texture or of what moves (1.4.1)", opaque));
+        opacity[int(k)] = color[std::min(k, color.size() - 1)];
+    if (!alpha.empty()) opacity.w = alpha[0];
+    if (source_of(use, "transparent_map") && opaque != "NONE") {
+        if (!effect.empty())
+            lost(fmt::format("effect '{}'", effect),
+                 fmt::format("opaque=\"{}\" of a texture (1.4.1)", opaque));
         opaque = "NONE";
     }
     std::erase_if(use.params, [](const ParamSource& p) {
         return p.name.starts_with("transparen") || p.name == "opaque";
     });
-    if (opaque == "NONE") return use;
-    seen = dvec4(1.0) - scale * seen;
+    if (opaque == "NONE") return;
+    opacity = dvec4(1.0) - scale * opacity;
     bool by_alpha = opaque == "A_ZERO";
     auto add = [&](const char* name, std::initializer_list<double> numbers) {
         ParamSource& p = use.params.emplace_back();
         p.name = name;
-        p.value = {uint32_t(description_.values.size() + more_values_.size()),
-                   uint32_t(numbers.size())};
-        more_values_.insert(more_values_.end(), numbers);
+        p.value = {uint32_t(values.size() + seen.more.size()), uint32_t(numbers.size())};
+        seen.more.insert(seen.more.end(), numbers);
     };
     if (by_alpha)
         add("transparent", {1, 1, 1});
     else
-        add("transparent", {seen.x, seen.y, seen.z});
-    add("transparent_alpha", {by_alpha ? seen.w : 1});
+        add("transparent", {opacity.x, opacity.y, opacity.z});
+    add("transparent_alpha", {by_alpha ? opacity.w : 1});
     add("transparency", {1});
     ParamSource& p = use.params.emplace_back();
     p.name = "opaque";
     p.strings = {by_alpha ? "A_ONE" : "RGB_ZERO"};
-    return use;
+}
+
+std::span<const double> ColladaExporter::SeenSurface::numbers(
+    ValueSlot slot, std::span<const double> values) const {
+    if (!slot.present()) return {};
+    return slot.offset < values.size()
+               ? values.subspan(slot.offset, slot.count)
+               : std::span(more).subspan(slot.offset - values.size(), slot.count);
+}
+
+// What COLLADA's model shows of a surface by the values of a time. What is lost is reported for an
+// effect with a name.
+ColladaExporter::SeenSurface ColladaExporter::seen_surface(const MaterialDefinition& m,
+                                                           std::span<const double> values,
+                                                           const std::string& effect) {
+    SeenSurface seen{m.surfaces.back(), {}};
+    if (has_nearest_common(seen.use)) {
+        CommonSurface nearest = nearest_common(m.surfaces.back(), values, seen.more);
+        for (const std::string& what : nearest.lost)
+            if (!effect.empty() && !is_rsl(m)) lost(fmt::format("material '{}'", m.id), what);
+        seen.use = std::move(nearest.use);
+    }
+    in_modes_of_1_4(seen, values, effect);
+    return seen;
+}
+
+// The numbers of a slot of profile_COMMON; none where it has none.
+std::vector<double> ColladaExporter::slot_numbers(const SeenSurface& seen, const char* param,
+                                                  bool is_color, bool is_light,
+                                                  std::span<const double> values) const {
+    const ParamSource* p = source_of(seen.use, param);
+    if (!p || !p->value.present()) return {};
+    std::span<const double> own = seen.numbers(p->value, values);
+    std::vector<double> v = is_light ? display_color(own, 1) : std::vector(own.begin(), own.end());
+    if (!is_color) return v;
+    v.resize(3, v.empty() ? 0.0 : v[0]);
+    const ParamSource* alpha = source_of(seen.use, "transparent_alpha");
+    bool with_alpha = alpha && std::string_view(param) == "transparent";
+    v.push_back(with_alpha ? seen.numbers(alpha->value, values)[0] : 1.0);
+    return v;
 }
 
 // profile_COMMON: COLLADA's own model as it is; of others the colors that any viewer understands.
-std::string ColladaExporter::common(const MaterialDefinition& definition, const ShaderUse* use,
+std::string ColladaExporter::common(const MaterialDefinition& definition, const SeenSurface* seen,
                                     const std::string& effect) {
+    const ShaderUse* use = seen ? &seen->use : nullptr;
     const ModelRow* model = nullptr;
     for (const ModelRow& row : kModels)
         if (use && is_library(*use, row.shader)) model = &row;
     std::string params, slots;
+    std::vector<ValueSlot> sources;  // of what is seen
+    if (model)
+        for (const ParamSource& p : definition.surfaces.back().params)
+            if (p.value.present()) sources.push_back(p.value);
+    auto moves = [&](const SlotRow& row, const char* param, bool is_color) {
+        if (!model) return false;
+        const std::string target = effect + "/common/" + row.element;
+        const ValueSlot own = source_of(*use, param)->value, channel = written(own);
+        bool is_light = row.kind == SlotKind::Light;
+        bool as_it_is = own.offset < description_.values.size() &&
+                        (!is_light || channel.offset != own.offset) &&
+                        row.kind != SlotKind::Measure;
+        if (as_it_is) {
+            animation_.name(channel, target, nullptr);
+            return animation_.moves(channel);
+        }
+        return animation_.name_made(target, sources, [&](const std::vector<double>& values) {
+            return slot_numbers(seen_surface(definition, values, ""), param, is_color, is_light,
+                                values);
+        });
+    };
     auto value = [&](const SlotRow& row, const char* param) -> std::string {
-        const ParamSource* p = use ? source_of(*use, param) : nullptr;
         const ParamSource* map = use ? source_of(*use, std::string(param) + "_map") : nullptr;
         bool is_color = row.kind != SlotKind::Number;
         if (map && !map->strings.empty() && !map->strings[0].empty() && is_color)
             return texture(*map, fmt::format("{}-{}", effect, row.element), "", params);
-        if (!p || !p->value.present()) return "";
-        std::vector<double> v(values(p->value).begin(), values(p->value).end());
-        if (row.kind == SlotKind::Light) v = display_color(p->value, 1);
-        if (is_color) {
-            v.resize(3, v.empty() ? 0.0 : v[0]);
-            const ParamSource* alpha = source_of(*use, "transparent_alpha");
-            bool with_alpha = alpha && std::string_view(row.element) == "transparent";
-            v.push_back(with_alpha ? values(alpha->value)[0] : 1.0);
-        }
-        std::string sid = row.element;
-        if (model) animation_.name(written(p->value), effect + "/common/" + sid, nullptr);
-        bool moves = model && animation_.moves(written(p->value));
-        return xml(is_color ? "color" : "float", moves ? attribute("sid", sid) : "",
+        if (!use) return "";
+        std::vector<double> v =
+            slot_numbers(*seen, param, is_color, row.kind == SlotKind::Light, description_.values);
+        if (v.empty()) return "";
+        return xml(is_color ? "color" : "float",
+                   moves(row, param, is_color) ? attribute("sid", row.element) : "",
                    number_text(v));
     };
     auto add = [&](const SlotRow& row, const char* param) {
@@ -279,7 +331,7 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
         add(kSlots[2], use && source_of(*use, "base_color") ? "base_color" : "surfacecolor");
     }
     std::string shading = xml(model ? model->element : "lambert", "", slots);
-    std::string extra = model ? bump(*use, effect, params) : "";
+    std::string extra = model ? bump(*seen, effect, params) : "";
     if (definition.hide_backfaces)
         extra +=
             "<extra><technique profile=\"GOOGLEEARTH\"><double_sided>0</double_sided>"
@@ -306,16 +358,9 @@ std::string ColladaExporter::effect(uint32_t index) {
     for (const auto* list :
          {&m.transformations, &m.displacements, &m.surfaces, &m.interior, &m.exterior, &m.lights})
         for (const ShaderUse& use : *list) uses.push_back(&use);
-    const ShaderUse* top = m.surfaces.empty() ? nullptr : &m.surfaces.back();
-    ShaderUse seen = top ? *top : ShaderUse{};
-    if (top && has_nearest_common(*top)) {
-        CommonSurface nearest = nearest_common(*top, description_, more_values_);
-        for (const std::string& what : nearest.lost)
-            if (!is_rsl(m)) lost(fmt::format("material '{}'", m.id), what);
-        seen = std::move(nearest.use);
-    }
-    seen = in_modes_of_1_4(std::move(seen), own);
-    std::string profiles = common(m, top ? &seen : nullptr, own);
+    std::optional<SeenSurface> seen;
+    if (!m.surfaces.empty()) seen = seen_surface(m, description_.values, own);
+    std::string profiles = common(m, seen ? &*seen : nullptr, own);
     if (is_rsl(m)) profiles += rsl(uses, own);
     effects_ += xml("effect", attribute("id", own), profiles);
     return own;
@@ -345,6 +390,23 @@ double falloff_exponent(double inner, double outer) {
     return cosine < 1 && cosine > 0 ? std::log(0.5) / std::log(cosine) : 0;
 }
 
+// The first number of a light's parameters by the values of a time.
+struct LightNumbers {
+    const ShaderUse& shader;
+    std::span<const double> values;
+
+    double operator()(const char* name, double otherwise) const {
+        const ParamSource* p = source_of(shader, name);
+        return p && p->value.present() ? values[p->value.offset] : otherwise;
+    }
+};
+
+// 0 where glTF's cone has a hard edge.
+double soft_exponent(const LightNumbers& n) {
+    double outer = n("outer_angle", kPi / 4), inner = n("inner_angle", 0);
+    return inner < 0.99 * outer ? falloff_exponent(inner, outer) : 0;
+}
+
 }  // namespace
 
 std::string ColladaExporter::light(uint32_t index) {
@@ -365,42 +427,68 @@ std::string ColladaExporter::light(uint32_t index) {
         if (is_library(l.shader, r.shader)) row = &r;
     const std::string& own = light_ids_[index];
     bool theirs = row && std::string_view(row->shader).starts_with("gltf");
-    auto number = [&](const char* name, double otherwise) {
-        const ParamSource* p = source_of(l.shader, name);
-        return p && p->value.present() ? values(p->value)[0] : otherwise;
-    };
-    // gltf_*.sl: Cl = color * intensity / PI, point and spot lights over d^2.
-    double factor = theirs ? number("intensity", 1) / kPi : 1.0;
+    LightNumbers now{l.shader, description_.values};
     const ParamSource* tint = source_of(l.shader, "lightcolor");
     ValueSlot color = tint ? tint->value : ValueSlot{};
+    std::vector<ValueSlot> sources;
+    for (const ParamSource& p : l.shader.params)
+        if (p.value.present()) sources.push_back(p.value);
     std::string content;
-    auto put = [&](const char* name, ValueSlot slot, std::span<const double> numbers) {
+    auto put = [&](const char* name, bool moves, std::span<const double> numbers) {
+        content += xml(name, moves ? attribute("sid", name) : "", number_text(numbers));
+    };
+    auto made = [&](const char* name, const NumbersAt& numbers) {
+        bool moves = row && animation_.name_made(own + "/" + name, sources, numbers);
+        put(name, moves, numbers(description_.values));
+    };
+    auto as_it_is = [&](const char* name, ValueSlot slot, std::span<const double> numbers) {
         animation_.name(slot, own + "/" + name, nullptr);
-        content +=
-            xml(name, animation_.moves(slot) ? attribute("sid", name) : "", number_text(numbers));
+        put(name, animation_.moves(slot), numbers);
     };
-    put("color", theirs ? ValueSlot{} : written(color), display_color(color, factor));
-    auto add = [&](const char* name, double value) {
+    // gltf_*.sl: Cl = color * intensity / PI, point and spot lights over d^2.
+    auto color_at = [&](const std::vector<double>& values) {
+        double factor = theirs ? LightNumbers{l.shader, values}("intensity", 1) / kPi : 1.0;
+        return display_color(color.present() ? std::span(values).subspan(color.offset, color.count)
+                                             : std::span<const double>(),
+                             factor);
+    };
+    if (written(color).offset != color.offset)
+        as_it_is("color", written(color), color_at(description_.values));
+    else
+        made("color", color_at);
+    auto add = [&](const char* name, double otherwise) {
         const ParamSource* p = source_of(l.shader, name);
-        put(name, p && !theirs ? p->value : ValueSlot{}, std::span<const double>(&value, 1));
+        double value = now(name, otherwise);
+        as_it_is(name, p ? p->value : ValueSlot{}, std::span<const double>(&value, 1));
     };
-    if (row && row->falls_off) {
-        add("constant_attenuation", theirs ? 0 : number("constant_attenuation", 1));
-        add("linear_attenuation", theirs ? 0 : number("linear_attenuation", 0));
-        double unit = number("unit", 1);  // of the scene's in a metre
-        add("quadratic_attenuation",
-            theirs ? 1 / (unit * unit) : number("quadratic_attenuation", 0));
+    // Of gltf_*.sl, from the numbers of a time.
+    auto add_made = [&](const char* name, auto&& value) {
+        made(name, [&](const std::vector<double>& values) {
+            return std::vector<double>{value(LightNumbers{l.shader, values})};
+        });
+    };
+    if (row && row->falls_off && theirs) {
+        add("constant_attenuation", 0);
+        add("linear_attenuation", 0);
+        double unit = now("unit", 1);  // of the scene's in a metre
+        add("quadratic_attenuation", 1 / (unit * unit));
+    } else if (row && row->falls_off) {
+        add("constant_attenuation", 1);
+        add("linear_attenuation", 0);
+        add("quadratic_attenuation", 0);
     }
     std::string name = fmt::format("light '{}'", own);
-    if (row && row->cone) {
-        double outer = number("outer_angle", kPi / 4), inner = number("inner_angle", 0);
-        bool soft = theirs && inner < 0.99 * outer;
-        add("falloff_angle", theirs ? outer * 360 / kPi : number("falloff_angle", 180));
-        add("falloff_exponent",
-            theirs ? (soft ? falloff_exponent(inner, outer) : 0) : number("falloff_exponent", 0));
-        if (soft) lost(name, "the edge of its cone (a power of the cosine comes near)");
+    if (row && row->cone && theirs) {
+        add_made("falloff_angle",
+                 [](const LightNumbers& n) { return n("outer_angle", kPi / 4) * 360 / kPi; });
+        add_made("falloff_exponent", soft_exponent);
+        if (soft_exponent(now) != 0)
+            lost(name, "the edge of its cone (a power of the cosine comes near)");
+    } else if (row && row->cone) {
+        add("falloff_angle", 180);
+        add("falloff_exponent", 0);
     }
-    if (theirs && row->falls_off && number("range", 0) > 0) lost(name, "where its range ends");
+    if (theirs && row->falls_off && now("range", 0) > 0) lost(name, "where its range ends");
     std::string extra = row ? "" : rsl_extra({l.shader}, own);
     if (l.blender)
         extra += xml("extra", "",

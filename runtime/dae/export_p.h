@@ -64,13 +64,23 @@ class ColladaExporter {
     ValueSlot written(ValueSlot color) const;
     std::string texture(const ParamSource& map, const std::string& sid, const std::string& extra,
                         std::string& params);
-    std::string bump(const ShaderUse& use, const std::string& effect, std::string& params);
-    ShaderUse in_modes_of_1_4(ShaderUse use, const std::string& effect);
-    std::vector<double> display_color(ValueSlot color, double factor) const;
+    struct SeenSurface {
+        ShaderUse use;             // of collada_*.sl, or of what has no model of COLLADA's
+        std::vector<double> more;  // numbers behind the description's values
+        std::span<const double> numbers(ValueSlot slot, std::span<const double> values) const;
+    };
+    std::string bump(const SeenSurface& seen, const std::string& effect, std::string& params);
+    void in_modes_of_1_4(SeenSurface& seen, std::span<const double> values,
+                         const std::string& effect);
+    SeenSurface seen_surface(const MaterialDefinition& material, std::span<const double> values,
+                             const std::string& effect);
+    std::vector<double> slot_numbers(const SeenSurface& seen, const char* param, bool is_color,
+                                     bool is_light, std::span<const double> values) const;
+    std::vector<double> display_color(std::span<const double> color, double factor) const;
     std::string inner_file(const std::string& name) const;
     std::string effect(uint32_t material);
     bool is_rsl(const MaterialDefinition& definition) const;
-    std::string common(const MaterialDefinition& definition, const ShaderUse* use,
+    std::string common(const MaterialDefinition& definition, const SeenSurface* seen,
                        const std::string& effect);
     // export_rsl.cpp
     struct RslProfile {
@@ -109,8 +119,7 @@ class ColladaExporter {
     std::string images_, effects_, materials_, controllers_;
     std::map<std::string, std::string> image_ids_, controller_ids_;
     std::map<uint32_t, std::string> morph_ids_;
-    std::vector<double> more_values_;  // behind the description's
-    std::string skinned_;              // nodes of skinned meshes, at the top
+    std::string skinned_;  // nodes of skinned meshes, at the top
 };
 
 // "<name a="b">text</name>" with `attributes` as they stand (" a=\"b\"").

@@ -32,9 +32,9 @@ double metal_diffusion(double rough) {
 
 class GltfToCommon {
   public:
-    GltfToCommon(const ShaderUse& from, const SceneDescription& description,
+    GltfToCommon(const ShaderUse& from, std::span<const double> values,
                  std::vector<double>& numbers)
-        : from_(from), description_(description), numbers_(numbers) {}
+        : from_(from), values_(values), numbers_(numbers) {}
 
     CommonSurface run() {
         bool unlit = from_.shader->name == "gltf_unlit";
@@ -64,7 +64,7 @@ class GltfToCommon {
     dvec3 color(std::string_view name, double otherwise) const {
         const ParamSource* p = source(name);
         if (!p || !p->value.present()) return dvec3(otherwise);
-        const double* v = &description_.values[p->value.offset];
+        const double* v = &values_[p->value.offset];
         return p->value.count < 3 ? dvec3(v[0]) : dvec3(v[0], v[1], v[2]);
     }
     double number(std::string_view name, double otherwise) const {
@@ -78,7 +78,7 @@ class GltfToCommon {
     void set(const char* name, std::initializer_list<double> values) {
         ParamSource& p = to_.use.params.emplace_back();
         p.name = name;
-        p.value = {uint32_t(description_.values.size() + numbers_.size()), uint32_t(values.size())};
+        p.value = {uint32_t(values_.size() + numbers_.size()), uint32_t(values.size())};
         numbers_.insert(numbers_.end(), values);
     }
     void set(const char* name, const dvec3& c) { set(name, {c.x, c.y, c.z}); }
@@ -169,7 +169,7 @@ class GltfToCommon {
     }
 
     const ShaderUse& from_;
-    const SceneDescription& description_;
+    std::span<const double> values_;
     std::vector<double>& numbers_;
     CommonSurface to_;
     bool tinted_ = false;
@@ -185,9 +185,9 @@ bool has_nearest_common(const ShaderUse& surface) {
     return false;
 }
 
-CommonSurface nearest_common(const ShaderUse& surface, const SceneDescription& description,
+CommonSurface nearest_common(const ShaderUse& surface, std::span<const double> values,
                              std::vector<double>& numbers) {
-    return GltfToCommon(surface, description, numbers).run();
+    return GltfToCommon(surface, values, numbers).run();
 }
 
 }  // namespace kinora
