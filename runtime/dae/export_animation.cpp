@@ -243,6 +243,16 @@ void AnimationWriter::name_rotation(uint32_t quaternion, const std::string& targ
     targets_[quaternion] = {target, "", quaternion, 4, true, axis};
 }
 
+// Whether a key of the channel is not what stands there at rest.
+bool AnimationWriter::leaves_rest(const anim::Sampler& s, const anim::Channel& c) const {
+    for (size_t k = 0; k < s.times.size(); ++k)
+        for (uint32_t i = 0; i < c.count; ++i)
+            if (s.values[k * s.stride + c.component + i] !=
+                description_.values[c.slot + i * c.slot_step])
+                return true;
+    return false;
+}
+
 // Calls add(WrittenCurve) for all that a channel writes.
 template <class F>
 void AnimationWriter::for_each_curve(const anim::Animation& animation, F&& add) {
@@ -251,7 +261,7 @@ void AnimationWriter::for_each_curve(const anim::Animation& animation, F&& add) 
         auto first = targets_.find(c.slot);
         if (s.empty()) continue;
         if (first == targets_.end()) {
-            if (!made_of_.contains(c.slot)) unnamed_.insert(c.slot);
+            if (!made_of_.contains(c.slot) && leaves_rest(s, c)) unnamed_.insert(c.slot);
             continue;
         }
         const Target& target = first->second;
@@ -272,9 +282,9 @@ void AnimationWriter::for_each_curve(const anim::Animation& animation, F&& add) 
         }
         for (uint32_t i = 0; i < c.count; ++i) {
             auto one = targets_.find(numbers[i]);
-            if (one == targets_.end() && !made_of_.contains(numbers[i]))
+            if (one == targets_.end() && !made_of_.contains(numbers[i]) && leaves_rest(s, c))
                 unnamed_.insert(numbers[i]);
-            else if (one != targets_.end())
+            if (one != targets_.end())
                 add({one->second.path + one->second.member,
                      component_keys(s, c.component + i),
                      {numbers[i]},

@@ -66,6 +66,7 @@ class AnimationWriter {
     Keys made_keys(const std::vector<MovingChannel>& channels, const NumbersAt& numbers);
     void add_made(const std::string& target, const Keys& keys, const std::vector<double>& rest,
                   uint32_t first, uint32_t clip);
+    bool leaves_rest(const anim::Sampler& sampler, const anim::Channel& channel) const;
     void report_unnamed(Diagnostics& diagnostics) const;
     template <class F>
     void for_each_curve(const anim::Animation& animation, F&& add);
