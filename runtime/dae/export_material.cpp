@@ -58,6 +58,14 @@ constexpr ModelRow kModels[] = {{"collada_constant", "constant", "056789"},
 
 constexpr const char* kWraps[] = {"WRAP", "MIRROR", "CLAMP", "BORDER"};
 
+// `factor` times the colour, white where there is none, as COLLADA's <color> says it.
+std::vector<double> display_color(std::span<const double> v, double factor) {
+    bool grey = v.size() < 3;
+    dvec3 linear = v.empty() ? dvec3(1.0) : dvec3(v[0], v[grey ? 0 : 1], v[grey ? 0 : 2]);
+    dvec3 display = short_display_color(factor * linear, 1e-12);
+    return {display.x, display.y, display.z};
+}
+
 }  // namespace
 
 // The id of the <image> of a texture's file; files inside the scene's file go beside the document.
@@ -102,14 +110,6 @@ ValueSlot ColladaExporter::written(ValueSlot color) const {
     for (const MovingColor& moving : description_.moving_colors)
         if (moving.linear == color.offset) return {moving.display, color.count};
     return color;
-}
-
-// `factor` times the colour, white where there is none, as COLLADA's <color> says it.
-std::vector<double> ColladaExporter::display_color(std::span<const double> v, double factor) const {
-    bool grey = v.size() < 3;
-    dvec3 linear = v.empty() ? dvec3(1.0) : dvec3(v[0], v[grey ? 0 : 1], v[grey ? 0 : 2]);
-    dvec3 display = short_display_color(factor * linear, 1e-12);
-    return {display.x, display.y, display.z};
 }
 
 std::string ColladaExporter::inner_file(const std::string& name) const {
@@ -233,19 +233,17 @@ void ColladaExporter::in_modes_of_1_4(SeenSurface& seen, std::span<const double>
     p.strings = {by_alpha ? "A_ONE" : "RGB_ZERO"};
 }
 
-std::span<const double> ColladaExporter::SeenSurface::numbers(
-    ValueSlot slot, std::span<const double> values) const {
+std::span<const double> SeenSurface::numbers(ValueSlot slot, std::span<const double> values) const {
     if (!slot.present()) return {};
     return slot.offset < values.size()
                ? values.subspan(slot.offset, slot.count)
                : std::span(more).subspan(slot.offset - values.size(), slot.count);
 }
 
-// What COLLADA's model shows of a surface by the values of a time. What is lost is reported for an
-// effect with a name.
-ColladaExporter::SeenSurface ColladaExporter::seen_surface(const MaterialDefinition& m,
-                                                           std::span<const double> values,
-                                                           const std::string& effect) {
+// What is lost is reported for an effect with a name.
+SeenSurface ColladaExporter::seen_surface(const MaterialDefinition& m,
+                                          std::span<const double> values,
+                                          const std::string& effect) {
     SeenSurface seen{m.surfaces.back(), {}};
     if (has_nearest_common(seen.use)) {
         CommonSurface nearest = nearest_common(m.surfaces.back(), values, seen.more);
@@ -257,10 +255,11 @@ ColladaExporter::SeenSurface ColladaExporter::seen_surface(const MaterialDefinit
     return seen;
 }
 
+namespace {
+
 // The numbers of a slot of profile_COMMON; none where it has none.
-std::vector<double> ColladaExporter::slot_numbers(const SeenSurface& seen, const char* param,
-                                                  bool is_color, bool is_light,
-                                                  std::span<const double> values) const {
+std::vector<double> slot_numbers(const SeenSurface& seen, const char* param, bool is_color,
+                                 bool is_light, std::span<const double> values) {
     const ParamSource* p = source_of(seen.use, param);
     if (!p || !p->value.present()) return {};
     std::span<const double> own = seen.numbers(p->value, values);
@@ -272,6 +271,8 @@ std::vector<double> ColladaExporter::slot_numbers(const SeenSurface& seen, const
     v.push_back(with_alpha ? seen.numbers(alpha->value, values)[0] : 1.0);
     return v;
 }
+
+}  // namespace
 
 // profile_COMMON: COLLADA's own model as it is; of others the colors that any viewer understands.
 std::string ColladaExporter::common(const MaterialDefinition& definition, const SeenSurface* seen,

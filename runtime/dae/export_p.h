@@ -24,6 +24,13 @@ struct MergedVertices {
     std::vector<uint32_t> kept(size_t count) const;
 };
 
+// What COLLADA's model shows of a surface by the values of a time.
+struct SeenSurface {
+    ShaderUse use;             // of collada_*.sl, or of what has no model of COLLADA's
+    std::vector<double> more;  // numbers behind the description's values
+    std::span<const double> numbers(ValueSlot slot, std::span<const double> values) const;
+};
+
 class ColladaExporter {
   public:
     ColladaExporter(const SceneDescription& description, const std::string& path,
@@ -64,19 +71,11 @@ class ColladaExporter {
     ValueSlot written(ValueSlot color) const;
     std::string texture(const ParamSource& map, const std::string& sid, const std::string& extra,
                         std::string& params);
-    struct SeenSurface {
-        ShaderUse use;             // of collada_*.sl, or of what has no model of COLLADA's
-        std::vector<double> more;  // numbers behind the description's values
-        std::span<const double> numbers(ValueSlot slot, std::span<const double> values) const;
-    };
     std::string bump(const SeenSurface& seen, const std::string& effect, std::string& params);
     void in_modes_of_1_4(SeenSurface& seen, std::span<const double> values,
                          const std::string& effect);
     SeenSurface seen_surface(const MaterialDefinition& material, std::span<const double> values,
                              const std::string& effect);
-    std::vector<double> slot_numbers(const SeenSurface& seen, const char* param, bool is_color,
-                                     bool is_light, std::span<const double> values) const;
-    std::vector<double> display_color(std::span<const double> color, double factor) const;
     std::string inner_file(const std::string& name) const;
     std::string effect(uint32_t material);
     bool is_rsl(const MaterialDefinition& definition) const;

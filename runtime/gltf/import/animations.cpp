@@ -8,7 +8,7 @@
 
 #include "runtime/description/findings.h"
 #include "runtime/gltf/file/value.h"
-#include "runtime/gltf/import/channel_target.h"
+#include "runtime/gltf/pointers/channel_target.h"
 
 namespace kinora {
 

@@ -11,8 +11,8 @@
 #include "runtime/gltf/import/accessor_reader.h"
 #include "runtime/gltf/import/node_properties.h"
 #include "runtime/gltf/import/node_tree.h"
-#include "runtime/gltf/import/pointer_slots.h"
 #include "runtime/gltf/import/unique_ids.h"
+#include "runtime/gltf/pointers/pointer_slots.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
 // runtime/gltf/import/node_properties.cpp: what channels write of a node.
 #include "runtime/gltf/import/node_properties.h"
 
-#include "runtime/gltf/import/channel_target.h"
+#include "runtime/gltf/pointers/channel_target.h"
 
 namespace kinora {
 

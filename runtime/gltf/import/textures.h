@@ -10,7 +10,7 @@
 #include "runtime/base/picture_search.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/gltf/file/byte_budget.h"
-#include "runtime/gltf/import/pointer_slots.h"
+#include "runtime/gltf/pointers/pointer_slots.h"
 
 namespace kinora {
 

@@ -1,9 +1,9 @@
-// runtime/gltf/import/pointer_slots.cpp: values of the file that channels drive by JSON pointers.
-#include "runtime/gltf/import/pointer_slots.h"
+// runtime/gltf/pointers/pointer_slots.cpp: values of the file that channels drive by JSON pointers.
+#include "runtime/gltf/pointers/pointer_slots.h"
 
 #include <algorithm>
 
-#include "runtime/gltf/import/channel_target.h"
+#include "runtime/gltf/pointers/channel_target.h"
 
 namespace kinora {
 

@@ -1,4 +1,4 @@
-// runtime/gltf/import/channel_target.h: what a channel of an animation drives.
+// runtime/gltf/pointers/channel_target.h: what a channel of an animation drives.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// runtime/gltf/import/channel_target.cpp: what a channel of an animation drives.
-#include "runtime/gltf/import/channel_target.h"
+// runtime/gltf/pointers/channel_target.cpp: what a channel of an animation drives.
+#include "runtime/gltf/pointers/channel_target.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-// runtime/gltf/import/pointer_slots.h: values of the file that channels drive by JSON pointers
+// runtime/gltf/pointers/pointer_slots.h: values of the file that channels drive by JSON pointers
 // (KHR_animation_pointer), and the slots that follow them.
 #pragma once
 
