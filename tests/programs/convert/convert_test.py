@@ -619,7 +619,7 @@ class ExitCodes(Convert):
     def test_strict_fails_where_something_is_lost(self):
         light = """<library_lights><light id="l"><technique_common><directional><color sid="c">1 1 1</color>
 </directional></technique_common></light></library_lights><library_animations><animation id="a">
-<source id="i"><float_array id="ia" count="2">0 1</float_array><technique_common><accessor source="#ia" count="2">
+<source id="i"><float_array id="ia" count="2">-1 1</float_array><technique_common><accessor source="#ia" count="2">
 <param name="TIME" type="float"/></accessor></technique_common></source><source id="o"><float_array id="oa" count="2">0 1</float_array>
 <technique_common><accessor source="#oa" count="2"><param name="R" type="float"/></accessor></technique_common></source>
 <sampler id="s"><input semantic="INPUT" source="#i"/><input semantic="OUTPUT" source="#o"/></sampler>
@@ -627,7 +627,7 @@ class ExitCodes(Convert):
         text = mesh_scene(light).replace("</instance_geometry>", '</instance_geometry><instance_light url="#l"/>')
         scene = self.write("a.dae", text)
         out = self.folder / "a.glb"
-        self.expect(convert(scene, out), 0, "CONVERT_LOST", "animated")
+        self.expect(convert(scene, out), 0, "CONVERT_LOST", "before time 0")
         self.expect(convert(scene, out, "--strict"), 1, "CONVERT_LOST")
         self.expect(convert(self.write("b.dae", mesh_scene()), out, "--strict"), 0)
         self.assertTrue(out.exists())
@@ -725,9 +725,8 @@ class ToGlb(Convert):
         self.assertEqual((self.folder / "m.bin").stat().st_size, json_["buffers"][0]["byteLength"])
 
     # The pictures are those of the .dae: what pbrMetallicRoughness cannot say is read from extras.
-    # (Not tintoy, whose animated shader parameters are named as lost, nor scenes without materials,
-    # which get each format's own default.)
-    PICTURES = [("court.dae", 1), ("walker.dae", 0.7)]
+    # (Not scenes without materials, which get each format's own default.)
+    PICTURES = [("court.dae", 1), ("walker.dae", 0.7), ("tintoy.dae", 1.2)]
     SHARED_PICTURES = [
         ("cts_skin_2_influence/skin_2_influence.dae", 0.5), ("cts_skin_on_morph/skin_on_morph.dae", 0),
         ("gltf_rigged_figure/RiggedFigure.dae", 0.6), ("thinmatrix_cowboy/model.dae", 0.4),
