@@ -20,8 +20,10 @@ struct GltfExportOptions {
 // The bytes of a .glb. Axes and unit become the matrix of one root node (none if the scene has
 // glTF's: metres, y up), whose extras.kinora_axes has import_gltf take them off again, so that
 // shaders find the world they were written for. instance_node trees are unrolled, since a glTF node
-// has one parent. LINEAR and STEP curves of translations, scales, weights and turns about one axis
-// come out exact, so do cubics with times at the thirds (CUBICSPLINE) of all but rotations.
+// has one parent. JSON pointers drive what moves of materials, lights, cameras and RSL parameters
+// (KHR_animation_pointer). LINEAR and STEP curves of translations, scales, weights and turns about
+// one axis come out exact, so do cubics with times at the thirds (CUBICSPLINE) of all but
+// rotations.
 //
 // Materials: base color = diffuse (<constant>: emission, with KHR_materials_unlit), emissive =
 // emission, metallic 0; roughness^4 = 2 / (n + 2), which makes GGX as wide as a Blinn highlight of
