@@ -48,7 +48,7 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
 void suit_math(Scene& scene) {
     constexpr double kLeast = 1e-6, kMost = 1e8;  // docs/numerics.md#two-tiers
     if (!(scene.size >= kLeast && scene.size <= kMost))
-        scene.options.math = jit::math::Tier::Precise;
+        scene.options.quality.math = jit::math::Tier::Precise;
 }
 
 // What fills a picture without surfaces.
@@ -111,7 +111,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
         diagnostics.report(Code::RAY_TRACER_MISSING, Location{}, why);
         return nullptr;
     }
-    scene.baked_samplers = anim::baked(scene.description->animation, options.keys);
+    scene.baked_samplers = anim::baked(scene.description->animation, key_options(options.quality));
     set_rows(scene);
     find_moving_parts(scene);
     if (scene.moving.surfaces.empty()) scene.still_tree = std::make_unique<StillTree>();

@@ -183,7 +183,7 @@ struct MaterialDefinition {
     std::vector<ShaderUse> surfaces;            // bottom first
     std::vector<ShaderUse> interior, exterior;  // volumes, each on what the one before it left
     std::vector<ShaderUse> lights;              // make the geometry an area light
-    uint32_t light_samples = 0;                 // 0: SceneOptions::light_samples
+    uint32_t light_samples = 0;                 // 0: Quality::light_samples
     std::optional<bool> light_shadows;
     bool hide_backfaces = false;
 };

@@ -105,8 +105,8 @@ void explain_lights(const Scene& scene, const Pose& pose, ExplainedRows& rows) {
         if (std::ranges::any_of(statements, [](const auto& s) { return s.casts_shadow; })) continue;
         const LightDefinition& light = scene.description->lights[source.definition];
         rows.leave_out(subject, "no automatic shadow rays",
-                       scene.options.shadows != ShadowMode::Auto ? "--shadows"
-                       : light.shadows                           ? "the light says so"
+                       scene.options.quality.shadows != ShadowMode::Auto ? "--shadows"
+                       : light.shadows                                   ? "the light says so"
                                        : "its shader asks for them itself");
     }
     std::set<uint32_t> looks, placed;

@@ -44,8 +44,8 @@ std::string why_it_deforms(const Scene& scene, const Shape& shape) {
     if (shape.skin != kNone)
         add(fmt::format("skin '{}' of {} joints, {} influences of a vertex",
                         scene.description->skins[shape.skin].id, shape.joint_nodes.size(),
-                        scene.options.influences
-                            ? fmt::format("at most {}", scene.options.influences)
+                        scene.options.quality.influences
+                            ? fmt::format("at most {}", scene.options.quality.influences)
                             : std::string("all")));
     if (shape.morph != kNone)
         add(fmt::format("a morph of {} targets", chain_targets(*scene.description, shape.morph)));

@@ -13,7 +13,7 @@
 namespace kinora {
 
 bool may_dice(const SceneDescription& description, const SceneOptions& options) {
-    return options.displacement == DisplacementMode::True &&
+    return options.quality.displacement == DisplacementMode::True &&
            std::ranges::any_of(description.materials, displaces);
 }
 

@@ -131,7 +131,7 @@ void report_shading(const Scene& scene, Pose& pose, const ShadingCounters& shadi
     if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightQuestions);
     if (shading.out_of_rays)
         diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
-                           scene.options.ray_limit);
+                           scene.options.quality.ray_limit);
     if (pose.watch_dark > 0) --pose.watch_dark;
     if (shading.dark > shading.seen / 2) {
         pose.watch_dark = 0;

@@ -333,7 +333,7 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     if (!apply_edits(imported, edits, read_.request, diagnostics, &shaders)) return;
     SceneDescription edited = copy_without_geometry(imported).description;
     dicing_.coarse = begins_coarse(order);
-    if (dicing_.coarse) imported.options.dice = kCoarseDice;
+    if (dicing_.coarse) imported.options.quality.dice = kCoarseDice;
     BuildAgain again{{}, textures_, &overtaken_};
     BuiltScene built =
         build_imported(std::move(imported), diagnostics, order.finer ? &again : nullptr);
@@ -377,7 +377,7 @@ void SceneMaker::pose(ShownScene& shown) const {
 
 bool SceneMaker::begins_coarse(const Order& order) const {
     const SceneOptions& options = read_.scene->options;
-    if (!hurries_ || order.finer || options.dice >= kCoarseDice) return false;
+    if (!hurries_ || order.finer || options.quality.dice >= kCoarseDice) return false;
     const bool fast = dicing_.is_fast && !order.open;
     return !fast && may_dice(read_.scene->description, options);
 }

@@ -19,7 +19,7 @@ void size_deforming(const Scene& scene, const Shape& shape, ShapePose& stands) {
     const size_t joints = skinned ? shape.joint_nodes.size() : 1;
     stands.palette.resize(joints + 1);
     if (skinned) stands.joint_world.resize(joints, dmat4(1.0));
-    if (skinned && scene.options.skin_method == SkinMethod::Dual)
+    if (skinned && scene.options.quality.skin_method == SkinMethod::Dual)
         stands.dual_palette.resize(joints + 1);
     if (shape.morph != kNone) {
         stands.morph_weights.resize(chain_targets(*scene.description, shape.morph));
@@ -72,7 +72,7 @@ Pose::Pose(const Scene& scene)
       shapes(scene.shapes.size()),
       watched(scene.watched.size()),
       rows(scene.rows),
-      accel(scene.options.accel),
+      accel(accel_policy(scene.options)),
       watch_dark(scene.watch_dark) {
     size_outputs(scene, *this);
     for (size_t s = 0; s < shapes.size(); ++s) size_shape(scene, scene.shapes[s], shapes[s]);

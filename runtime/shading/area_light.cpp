@@ -32,7 +32,9 @@ vec2 on_triangle(float x, float y) {
 
 uint32_t light_samples(const Scene& scene, size_t light) {
     const uint32_t own = scene.description->lights[scene.lights[light].definition].samples;
-    return scene.options.light_samples ? scene.options.light_samples : own ? own : kDefaultSamples;
+    return scene.options.quality.light_samples ? scene.options.quality.light_samples
+           : own                               ? own
+                                               : kDefaultSamples;
 }
 
 AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings) : frame_(frame) {

@@ -332,8 +332,8 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
     const int any = lanes.first(), level = lanes.integer(Row::Level, any), flags = flags_of(lanes);
     const auto& results = grid.look->lowered.gathers[size_t(lanes.integer(Row::Request, any))];
-    bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows && grid.depth < frame_.ray_depth &&
-                  !frame_.stopped();
+    bool shoots = !(flags & rsl::kGatherNoRays) && grid.shadows &&
+                  grid.depth < frame_.quality.ray_depth && !frame_.stopped();
     RayCounts counts = count_rays(grid, lanes, flags, shoots);
     if (is_noting(grid)) {  // its turns wait for the second run
         grid.record_sets[kGatherSets + size_t(level)] = {};

@@ -22,7 +22,7 @@ namespace {
 // (docs/decisions.md#exact-arithmetic).
 struct DenormalMode {
     explicit DenormalMode(const Scene& scene) {
-        if (scene.options.math == jit::math::Tier::Fast) flush.emplace();
+        if (scene.options.quality.math == jit::math::Tier::Fast) flush.emplace();
     }
     std::optional<raytrace::DenormalGuard> flush;
 };
@@ -165,8 +165,8 @@ namespace {
 bool collects(const Grid& grid) {
     static const jit::ServiceFn trace = find_service("trace"),
                                 diffuse = find_service("indirectdiffuse");
-    const bool bounces = grid.ray.diffuse < grid.frame.diffuse_depth;
-    return grid.depth < grid.frame.ray_depth &&
+    const bool bounces = grid.ray.diffuse < grid.frame.quality.diffuse_depth;
+    return grid.depth < grid.frame.quality.ray_depth &&
            std::ranges::any_of(grid.look->full.services, [&](jit::ServiceFn fn) {
                return fn == trace || (bounces && fn == diffuse);
            });

@@ -159,7 +159,7 @@ size_t Imager::run(raytrace::Film& film, raytrace::NanPolicy nan) {
     std::atomic<size_t> bad = 0;
     parallel_for(0, runs, 1, [&](size_t begin, size_t end) {
         std::optional<raytrace::DenormalGuard> flush;
-        if (frame_.scene.options.math == jit::math::Tier::Fast) flush.emplace();
+        if (frame_.quality.math == jit::math::Tier::Fast) flush.emplace();
         for (size_t r = begin; r < end; ++r)
             bad += run_pixels(film, r * kGridPoints,
                               std::min(kGridPoints, film.rgba.size() - r * kGridPoints), nan);

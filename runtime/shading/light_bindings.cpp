@@ -186,7 +186,7 @@ LightBindings::LightBindings(const Scene& scene) {
         auto& statements = statements_.emplace_back();
         for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
             statements.push_back(statement_of(look, s, scene.description->lights[light.definition],
-                                              scene.options.shadows));
+                                              scene.options.quality.shadows));
     }
     for (const auto& look : scene.shader_instances) {
         auto& row = bindings_.emplace_back();

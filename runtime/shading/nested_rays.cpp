@@ -128,7 +128,7 @@ float share_left(Grid& grid, size_t point) {
 // Who asks for deeper rays gets them.
 float least_share(const Grid& grid) {
     const float least = kLeastShare[std::min(grid.depth, 3u)];
-    const int deeper = int(grid.frame.ray_depth) - kUsualDepth;
+    const int deeper = int(grid.frame.quality.ray_depth) - kUsualDepth;
     return deeper > 0 ? least * std::pow(1 + kCallCost, -float(deeper)) : least;
 }
 
@@ -158,7 +158,7 @@ float ray_budget(const Grid& grid, size_t point) {
     const Grid& seen = grid.lit ? *grid.lit : grid;  // a light spends what the lit points have
     const raytrace::HitBatch& hits = seen.hits;
     uint32_t hit = seen.points[point + (grid.lit ? grid.lit_first : 0)];
-    float limit = float(grid.frame.ray_limit);
+    float limit = float(grid.frame.quality.ray_limit);
     if (grid.depth == 0 || !hits.rays) return limit;
     return std::max(kLeastRays, limit * hits.rays->share[hits.ray[hit]]);
 }
@@ -198,7 +198,7 @@ int spend_samples(Grid& grid, size_t point, int n) {
 bool refuse_rays(Grid& grid, size_t point, int n) {
     PointRays* rays = account(grid, point);
     if (!rays) return true;
-    bool before = rays->refused < grid.frame.ray_limit;
+    bool before = rays->refused < grid.frame.quality.ray_limit;
     rays->refused += before ? uint32_t(n) : 0u;
     return before;
 }
@@ -207,7 +207,7 @@ void end_loops(Grid& grid, const jit::ServiceCall& call) {
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         bool asks = call.mask >> lane & 1;
         PointRays* rays = asks ? account(grid, size_t(call.first + lane)) : nullptr;
-        if (rays && rays->refused >= grid.frame.ray_limit) end_account(grid, *rays);
+        if (rays && rays->refused >= grid.frame.quality.ray_limit) end_account(grid, *rays);
         call.results[lane] = jit::float_of(int32_t(rays && rays->ended));
     }
 }
@@ -246,7 +246,7 @@ TracedRay choose_way(Grid& grid, size_t point, float weight, float through) {
     own->reflects = true;
     float passing = passes ? before * through : 0.0f;
     float all = reflected + passing;
-    bool first = std::max(rays->turns[ray], grid.depth) < grid.frame.split;
+    bool first = std::max(rays->turns[ray], grid.depth) < grid.frame.quality.split;
     if (first || !std::isfinite(all)) return {1, reflected};
     // Rays that count for little end at random, those that are left count for more.
     float kept = std::min(1.0f, all / kLeastWeight);

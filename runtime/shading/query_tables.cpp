@@ -77,10 +77,10 @@ Fact row_number(const Asker& asker) {
     return double(asker.grid->hits.instance[asker.hit()]);
 }
 Fact ray_depth(const Asker& asker) {
-    return double(asker.scene.options.ray_depth);
+    return double(asker.scene.options.quality.ray_depth);
 }
 Fact diffuse_depth(const Asker& asker) {
-    return double(asker.scene.options.diffuse_depth);
+    return double(asker.scene.options.quality.diffuse_depth);
 }
 Fact backfacing(const Asker& asker) {
     return one_sided(asker) ? 1.0 : 0.0;

@@ -30,7 +30,7 @@ TextureStore& SceneHost::textures() const {
 }
 
 TextureFilter SceneHost::best_filter() const {
-    return scene_.options.texture_filter;
+    return scene_.options.quality.texture_filter;
 }
 dmat4 SceneHost::current_from_space(std::string_view name, size_t) const {
     return kinora::current_from_space(scene_, pose_, name, look_.space_owner());

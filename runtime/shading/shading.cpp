@@ -36,7 +36,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
 
 // Each object is made of those before it. Kernels alone lead back up: they call services.
 struct Shading::Objects {
-    Objects(const Scene& scene, const Pose& pose) : frame{scene, pose} {}
+    Objects(const Scene& scene, const Pose& pose) : frame{scene, scene.options.quality, pose} {}
 
     ShadingFrame frame;
     ThreadMemories threads;
@@ -140,10 +140,6 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     ThreadMemories& threads = objects_->threads;
     frame.seed = seed;
     frame.max_layers = max_layers;
-    frame.ray_depth = uint32_t(frame.scene.options.ray_depth);
-    frame.diffuse_depth = uint32_t(frame.scene.options.diffuse_depth);
-    frame.ray_limit = uint32_t(frame.scene.options.ray_limit);
-    frame.split = uint32_t(frame.scene.options.split);
     while (threads.size() < size_t(thread_count()))
         threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
     frame.footprints = all_inputs || objects_->reads_footprints;

@@ -13,6 +13,7 @@
 namespace kinora {
 
 struct Pose;
+struct Quality;
 struct Scene;
 
 // How often a point may ask for the lights at points of its own, some 8 KB each time: a march may,
@@ -36,16 +37,13 @@ struct ShadingCounters {
 // What is the same for all that is shaded in a frame. Set by Shading before the first hit.
 struct ShadingFrame {
     const Scene& scene;
+    const Quality& quality;  // the scene's
     const Pose& pose;
     std::vector<InstanceFrame> instances = {};  // of Scene::shader_instances
     mat3 camera_from_accel{1.0f};
     vec3 eye{0.0f};  // accel space
     uint32_t seed = 0;
-    int max_layers = 256;        // surfaces that a ray sees through
-    uint32_t ray_depth = 0;      // of the deepest ray that is shot
-    uint32_t diffuse_depth = 0;  // bounces of indirectdiffuse
-    uint32_t ray_limit = 0;      // SceneOptions::ray_limit, split
-    uint32_t split = 0;
+    int max_layers = 256;    // surfaces that a ray sees through
     bool footprints = true;  // some shader reads those of hits
     bool any_transparent = false;
     bool lights_shoot = false;  // some light's kernel shoots rays

@@ -157,7 +157,7 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
             choose_way(grid, point, lanes.number(Weight, lane), lanes.number(Through, lane));
         return plan.way[lane].factor > 0 && spend_rays(grid, point, n) ? n : 0;
     };
-    bool deep = grid.depth >= frame_.ray_depth;
+    bool deep = grid.depth >= frame_.quality.ray_depth;
     bool shoots = grid.shadows && !deep && !frame_.stopped();
     for (int lane = 0; lane < kLanes; ++lane) {
         if (!lanes.asks(lane)) continue;
@@ -437,8 +437,8 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     vec3 sum[kLanes] = {}, sky[kLanes] = {};
     float blocked[kLanes] = {};
     // What lies beyond the last bounce is black; a map alone costs no ray.
-    bool bounces = grid.depth < frame_.ray_depth && grid.ray.diffuse < frame_.diffuse_depth &&
-                   !frame_.stopped();
+    bool bounces = grid.depth < frame_.quality.ray_depth &&
+                   grid.ray.diffuse < frame_.quality.diffuse_depth && !frame_.stopped();
     ConeRays cone(grid, lanes);
     // The bounces are counted: all are followed, the later ones with fewer rays.
     float share[kLanes] = {};

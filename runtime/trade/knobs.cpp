@@ -32,20 +32,20 @@ constexpr KnobKind kind_of(bool has_words) {
 
 std::vector<Knob> make_knobs() {
     return {
-#define KNOB(type, member, option, words, low, high, settings, draft, preview, final_, reference, \
-             stage, error, trades, help)                                                          \
-    Knob{kind_of<type>(sizeof(words) > 1),                                                        \
-         option,                                                                                  \
-         words_in(words),                                                                         \
-         low,                                                                                     \
-         high,                                                                                    \
-         words_in(settings),                                                                      \
-         {draft, preview, final_, reference},                                                     \
-         stage,                                                                                   \
-         error,                                                                                   \
-         trades,                                                                                  \
-         help,                                                                                    \
-         [](const Quality& q) { return double(q.member); },                                       \
+#define KNOB(type, member, value_, option, words, low, high, settings, draft, preview, final_, \
+             reference, stage, error, trades, help)                                            \
+    Knob{kind_of<type>(sizeof(words) > 1),                                                     \
+         option,                                                                               \
+         words_in(words),                                                                      \
+         low,                                                                                  \
+         high,                                                                                 \
+         words_in(settings),                                                                   \
+         {draft, preview, final_, reference},                                                  \
+         stage,                                                                                \
+         error,                                                                                \
+         trades,                                                                               \
+         help,                                                                                 \
+         [](const Quality& q) { return double(q.member); },                                    \
          [](Quality& q, double value) { q.member = type(value); }},
 #include "runtime/trade/knobs.def"
     };

@@ -1,4 +1,4 @@
-// runtime/trade/quality.h: the speed/accuracy trade: named presets of knob settings.
+// runtime/trade/quality.h: the settings that trade speed for accuracy, and their named presets.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +7,22 @@
 
 #include "anim/decompose.h"
 #include "jit/math/math.h"
+#include "runtime/description/texture_name.h"
 #include "runtime/images/image_io.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
-// One preset of --quality; an option given by itself wins over it. A member a row of knobs.def.
+enum class ShadowMode : uint8_t { Auto, Explicit, Off };
+enum class DisplacementMode : uint8_t { True, Bump };
+// How joints are blended: by their matrices, as COLLADA has it, or by dual quaternions.
+enum class SkinMethod : uint8_t { Linear, Dual };
+
+// A setting of each knob: a member a row of knobs.def, which explains it. A preset of --quality, or
+// one with single options put over it. Requests and scenes hold it by value, and what obeys a knob
+// reads its member there.
 struct Quality {
-    const char* name = "";
-#define KNOB(type, member, ...) type member{};
+    const char* name = "";  // of the preset
+#define KNOB(type, member, value, ...) type member = value;
 #include "runtime/trade/knobs.def"
 };
 

@@ -244,7 +244,7 @@ void VertexWork::run_group(Pass& pass, size_t g) const {
                               stage.frame);
     // Precise kernels run in the IEEE default, fast ones flush denormals
     // (docs/decisions.md#exact-arithmetic).
-    bool fast = pass.scene.options.math == jit::math::Tier::Fast;
+    bool fast = pass.scene.options.quality.math == jit::math::Tier::Fast;
     std::vector<uint8_t>& faults = stage.faults;
     parallel_for(0, (count + kPart - 1) / kPart, 1, [&](size_t begin, size_t end) {
         std::optional<raytrace::DenormalGuard> flush;

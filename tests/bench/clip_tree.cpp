@@ -299,7 +299,7 @@ int measure(const char* file, FrameSettings settings, size_t count) {
     options.end_time = range.end;
     options.width = settings.width;
     options.height = settings.height;
-    options.accel.background = false;
+    options.background_rebuilds = false;
     std::unique_ptr<Scene> scene = build_scene(
         std::make_shared<SceneDescription>(std::move(*description)), options, diagnostics);
     if (!scene) return 1;
@@ -312,7 +312,7 @@ int measure(const char* file, FrameSettings settings, size_t count) {
         std::fprintf(stderr, "clip_tree: nothing in '%s' deforms\n", file);
         return 1;
     }
-    AccelPolicy once = options.accel, anew = options.accel;
+    AccelPolicy once = accel_policy(options), anew = once;
     once.refit_limit = once.low_limit = std::numeric_limits<float>::infinity();
     anew.always_rebuild = true;
     const Vertices& first = clip.frames.front().pose;
@@ -325,7 +325,7 @@ int measure(const char* file, FrameSettings settings, size_t count) {
     add("rest", clip.rest, once);
     add("mean", mean_of(clip), once);
     add("best of 16", best_of(clip), once);
-    add("as frames", first, options.accel, true);
+    add("as frames", first, accel_policy(options), true);
     add("rebuild", first, anew);
     for (const Frame& frame : clip.frames)
         for (auto& way : ways) way->play(frame);

@@ -92,14 +92,9 @@ std::unique_ptr<Scene> load(Job& job) {
     Diagnostics diagnostics;
     std::optional<SceneDescription> description = import_scene(job.scene, {}, diagnostics);
     if (!description) return nullptr;
-    const Quality& quality = *find_quality("preview");
     SceneOptions options;
-    options.math = quality.math;
-    options.ray_depth = quality.ray_depth;
-    options.diffuse_depth = quality.diffuse_depth;
-    options.split = quality.split;
-    options.accel.robust = quality.robust;
-    options.accel.background = false;
+    options.quality = *find_quality("preview");
+    options.background_rebuilds = false;
     const PlayRange range = play_range(*description);
     options.frame_rate = range.rate;
     options.start_time = range.start;

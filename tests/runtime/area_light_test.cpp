@@ -269,7 +269,7 @@ TEST(AreaLight, SampleCountsComeFromTheMaterialOrTheOption) {
     uint64_t points = 16 * 16;
     file.frame();
     SceneOptions options;
-    options.light_samples = 3;
+    options.quality.light_samples = 3;
     Rendering option(scene.text(), options);
     option.frame();
     EXPECT_NEAR(double(file.stats.rays - points) / double(option.stats.rays - points), 7.0 / 3,
@@ -323,7 +323,7 @@ SceneText half_sky(const std::string& sun) {
 }
 Rendering sunlit(const std::string& sun, uint32_t samples) {
     SceneOptions options;
-    options.light_samples = samples;
+    options.quality.light_samples = samples;
     return Rendering(half_sky(sun).text(), options);
 }
 
@@ -386,7 +386,7 @@ TEST(Solar, SoftShadowsHaveTheSameBytesForAnyThreadsAndTargets) {
         if (!target.supported()) continue;
         Threads scope(3);
         SceneOptions options;
-        options.light_samples = 8;
+        options.quality.light_samples = 8;
         options.target = &target;
         Rendering again(half_sky(sun).text(), options);
         EXPECT_TRUE(same_bytes(first.film, again.frame(40, 33).film)) << target.name;

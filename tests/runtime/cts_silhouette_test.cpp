@@ -69,7 +69,7 @@ std::unique_ptr<Scene> load(const fs::path& path, Diagnostics& diagnostics) {
     auto description = import_collada(path.string(), {}, diagnostics);
     if (!description) return nullptr;
     SceneOptions options;
-    options.shadows = ShadowMode::Off;
+    options.quality.shadows = ShadowMode::Off;
     options.camera = "#";  // the file's, however little it sees
     PlayRange range = play_range(*description);
     options.start_time = range.start;

@@ -126,7 +126,7 @@ TEST(TrueDisplacement, ThatOnlyBendsNStaysAKernelOfTheSurface) {
 
 TEST(TrueDisplacement, IsLeftOutByTheBumpKnob) {
     SceneOptions options = dice_of(2);
-    options.displacement = DisplacementMode::Bump;
+    options.quality.displacement = DisplacementMode::Bump;
     Rendering r(square_scene("displacement d() { P += 0.5 * N; }\n").text(), options);
     r.frame();
     EXPECT_EQ(mesh_of(r).positions.size(), 4u);
@@ -152,12 +152,12 @@ TEST(TrueDisplacement, ATimesVerticesDependOnThatTimeAlone) {
     scene.light("sun", "<directional><color>1 1 1</color></directional>",
                 "<rotate>0 1 0 40</rotate>");
     SceneOptions options = dice_of(2);
-    options.accel.background = false;
+    options.background_rebuilds = false;
     Rendering r(scene.text(), options);
     r.frame(32, 32, 0.0);
     r.frame(32, 32, 0.4);
     EXPECT_EQ(r.stats.refits, 1);
-    options.accel.always_rebuild = true;
+    options.quality.always_rebuild = true;
     Rendering fresh(scene.text(), options);
     fresh.frame(32, 32, 0.4);
     EXPECT_EQ(fresh.stats.refits, 0);
@@ -233,7 +233,7 @@ TEST(TrueDisplacement, AllocatesNothingAfterTheFirstFrames) {
                kDisplaced);
     scene.bending_strip("strip", "skin", 8);
     SceneOptions options = dice_of(4);
-    options.accel.refit_limit = options.accel.low_limit = 1e9f;
+    options.quality.refit_limit = options.low_limit = 1e9f;
     Rendering r(scene.text(), options);
     for (int frame = 0; frame < 6; ++frame) r.frame(32, 32, frame / 24.0);
     watch_allocations();
@@ -400,7 +400,7 @@ TEST(TrueDisplacement, LeavesTextsMatricesAndArraysToTheSurfaceAsBumpDoes) {
                 kDisplaced);
             scene.place("floor", "look");
             SceneOptions options = dice_of(2, 64);
-            options.displacement = mode;
+            options.quality.displacement = mode;
             Rendering r(scene.text(), options);
             r.frame();
             ASSERT_FALSE(r.diagnostics.has_errors()) << r.findings();

@@ -29,7 +29,7 @@ inline SceneText square_scene(const std::string& code, const std::string& passes
 
 inline SceneOptions dice_of(double pixels, int width = 64) {
     SceneOptions options;
-    options.dice = pixels;
+    options.quality.dice = pixels;
     options.width = options.height = width;
     return options;
 }

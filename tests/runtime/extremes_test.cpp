@@ -187,7 +187,7 @@ SceneText twisted_strip() {
 TEST(SkinMethods, LinearBlendsMatricesAndDualTurns) {
     for (SkinMethod method : {SkinMethod::Linear, SkinMethod::Dual}) {
         SceneOptions options;
-        options.skin_method = method;
+        options.quality.skin_method = method;
         Rendering r(twisted_strip().text(), options);
         r.frame(400, 400, 1);
         const double half = method == SkinMethod::Linear ? 0.3 / 2 : 0.3 * std::cos(radians(45));
@@ -200,7 +200,7 @@ TEST(SkinMethods, LinearBlendsMatricesAndDualTurns) {
 
 TEST(SkinMethods, FewerInfluencesAreTold) {
     SceneOptions options;
-    options.influences = 1;
+    options.quality.influences = 1;
     Rendering r(twisted_strip().text(), options);
     r.frame(400, 400, 1);
     EXPECT_EQ(r.count("SKIN_INFLUENCES_DROPPED"), 1) << r.findings();

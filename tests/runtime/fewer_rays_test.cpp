@@ -27,7 +27,7 @@ std::unique_ptr<Rendering> pyramid_under(const std::string& shader,
     scene.square("wall", 3).place("wall", "look", "<translate>0 0 -2</translate>");
     light_it(scene);
     SceneOptions options;
-    options.weak_lights = weak_lights;
+    options.quality.weak_lights = weak_lights;
     auto r = std::make_unique<Rendering>(scene.text(), options);
     r->frame(64, 64);
     EXPECT_FALSE(r->diagnostics.has_errors()) << r->findings();

@@ -48,7 +48,7 @@ std::string walker() {
 // A rebuild makes new structures; a frame that refits makes none.
 SceneOptions refit_only() {
     SceneOptions options;
-    options.accel.refit_limit = options.accel.low_limit = 1e9f;
+    options.quality.refit_limit = options.low_limit = 1e9f;
     return options;
 }
 
@@ -95,7 +95,7 @@ TEST(Frame, PicturesMoveAtAll) {
 
 TEST(Frame, RefittedFramesEqualRebuiltFrames) {
     SceneOptions rebuild;
-    rebuild.accel.always_rebuild = true;
+    rebuild.quality.always_rebuild = true;
     Rendering refitted(moving_scene().text()), rebuilt(moving_scene().text(), rebuild);
     int refits = 0;
     for (int i = 0; i <= 6; ++i) {

@@ -282,9 +282,9 @@ TEST(Shadows, AreOffWhereTheLightOrTheOptionSaysSo) {
     const char* on = "<extra><technique profile=\"RSL\"><shadows>1</shadows></technique></extra>";
     SceneOptions options;
     expect_shadow(shadow_scene(code, off), dvec3(1));
-    options.shadows = ShadowMode::Off;
+    options.quality.shadows = ShadowMode::Off;
     expect_shadow(shadow_scene(code), dvec3(1), options);
-    options.shadows = ShadowMode::Explicit;
+    options.quality.shadows = ShadowMode::Explicit;
     expect_shadow(shadow_scene(code), dvec3(1), options);
     expect_shadow(shadow_scene(code, on), dvec3(0), options);
 }

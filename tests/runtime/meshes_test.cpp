@@ -145,7 +145,7 @@ TEST(FlatMesh, DisplacedAlikeEverywhereItKeepsItsFaces) {
               kBoth)
         .place("roof", "look");
     SceneOptions options;
-    options.dice = 1;
+    options.quality.dice = 1;
     options.width = options.height = 32;
     Rendering r(scene.text(), options);
     ASSERT_TRUE(r.scene) << r.findings();
@@ -169,7 +169,7 @@ TEST(FlatMesh, DisplacedAfterMorphAndSkinItHasTheFacesOfNow) {
         else
             scene.nodes += controlled("m");
         SceneOptions options;
-        options.dice = 1;
+        options.quality.dice = 1;
         options.width = options.height = 32;
         const double c = 1 / std::sqrt(5.0);
         expect_colors(
@@ -192,7 +192,7 @@ TEST(FlatMesh, DisplacementsMoveAlongTheFacesNormals) {
               kBoth)
         .place("roof", "look");
     SceneOptions options;
-    options.dice = 1;
+    options.quality.dice = 1;
     options.width = options.height = 32;
     Rendering r(scene.text(), options);
     r.frame();
@@ -212,7 +212,7 @@ TEST(FlatMesh, DisplacementIsSmoothWithinAFace) {
               kBoth)
         .place("floor", "look");
     SceneOptions options;
-    options.dice = 0.5;
+    options.quality.dice = 0.5;
     options.width = options.height = 64;
     expect_colors(
         Rendering(scene.text(), options).frame(),

@@ -104,9 +104,9 @@ TEST(OneWay, OfFourGlassBallsTakesAtMostThirtyRaysASample) {
 TEST(OneWay, KeepsTheMeanOfThePicture) {
     SceneText scene = four_balls(0.5, 0.5);
     SceneOptions options;
-    options.ray_depth = 5;
+    options.quality.ray_depth = 5;
     Picture one(scene, options, 48, 64);
-    options.split = 64;
+    options.quality.split = 64;
     Picture both(scene, options, 48, 4);
     EXPECT_LT(one.rays_per_sample(), both.rays_per_sample());
     for (int k = 0; k < 4; ++k)
@@ -144,7 +144,7 @@ TEST(OneWay, IsChosenByItsShare) {
     EXPECT_GT(lamps, 256 / 3 - 35);  // five standard deviations
     EXPECT_LT(lamps, 256 / 3 + 35);
     SceneOptions options;
-    options.split = 2;
+    options.quality.split = 2;
     Rendering both(text, options);
     expect_colors(both.frame(), [](dvec2) { return dvec3(0.25 + 1.5); });
 }
@@ -157,7 +157,7 @@ TEST(OneWay, KeepsTheMeanOfAlpha) {
     for (double z : {0.0, 1.0})
         scene.place("square", "pane", fmt::format("<translate>0 0 {}</translate>", z));
     SceneOptions options;
-    options.split = 64;
+    options.quality.split = 64;
     dvec4 both = mean(Picture(scene, options, 16, 1).r.film);
     EXPECT_NEAR(both.w, 1 - 0.36, 1e-5);
     dvec4 one = mean(Picture(scene, {}, 16, 256).r.film);
@@ -244,7 +244,7 @@ TEST(RayLimit, CanBeRaised) {
     EXPECT_NE(stopped.findings().find("16 shading points"), std::string::npos)
         << stopped.findings();
     SceneOptions options;
-    options.ray_limit = 3000;
+    options.quality.ray_limit = 3000;
     Rendering whole(scene.text(), options);
     whole.frame(4, 4);
     EXPECT_EQ(whole.color(1, 1).x, 1.0f);

@@ -264,7 +264,7 @@ TEST(IndirectDiffuse, BouncesAsOftenAsTheSceneAllows) {
             .place("plane", "upper")
             .place("plane", "lower", "<translate>0 0 -1</translate>");
         SceneOptions options;
-        options.diffuse_depth = bounces;
+        options.quality.diffuse_depth = bounces;
         Rendering r(scene.text(), options);
         r.frame(4, 4);
         EXPECT_FALSE(r.diagnostics.has_errors()) << r.findings();
@@ -309,7 +309,7 @@ TEST(Trace, HangsNoMoreRaysBehindEachOtherThanAllowed) {
         scene.mesh("b", {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}}, {0, 2, 1, 0, 3, 2});
         scene.place("b", "m", "<translate>0 0 11</translate>");
         SceneOptions options;
-        options.ray_depth = depth;
+        options.quality.ray_depth = depth;
         Rendering r(scene.text(), options);
         r.frame(4, 4);
         EXPECT_EQ(r.color(1, 1).x, 1.0f + float(depth)) << r.findings();
@@ -341,7 +341,7 @@ TEST(IndirectDiffuse, OfManyBouncesEndsAndKeepsItsMean) {
     scene.square("floor", 1.5).look("floor-look", half).place("floor", "floor-look");
     add_box(scene, half);
     SceneOptions options;
-    options.diffuse_depth = 8;
+    options.quality.diffuse_depth = 8;
     Rendering r(scene.text(), options);
     r.frame(2, 2);
     EXPECT_LT(r.stats.rays, 4u * 50000u);

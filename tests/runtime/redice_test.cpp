@@ -51,7 +51,7 @@ SceneOptions options_of(double dice = 2) {
     SceneOptions options = dice_of(dice, kSize);
     options.start_time = 0;
     options.end_time = 1;
-    options.accel.background = false;
+    options.background_rebuilds = false;
     options.camera = "#";  // the file's, although loading sees little of a strip by it
     return options;
 }

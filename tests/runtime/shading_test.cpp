@@ -149,7 +149,7 @@ TEST(SurfaceParameters, DerivativesFollowTheChainRule) {
 TEST(SurfaceParameters, WithoutDerivativesTheyAreZero) {
     SceneText scene = floor_scene(show("Du(s), 1 + Dv(t), 0.5 + area(P)"));
     SceneOptions options;
-    options.derivatives = false;
+    options.quality.derivatives = false;
     expect_colors(Rendering(scene.text(), options).frame(), [](dvec2) { return dvec3(0, 1, 0.5); });
 }
 
@@ -226,7 +226,7 @@ TEST(SurfaceParameters, AreNotNeededToReadVertexInputs) {
 
 SceneOptions bump_only() {
     SceneOptions options;
-    options.displacement = DisplacementMode::Bump;
+    options.quality.displacement = DisplacementMode::Bump;
     return options;
 }
 

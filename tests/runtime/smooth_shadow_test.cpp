@@ -89,7 +89,7 @@ SceneText& sun(SceneText& scene, double degrees_from_camera, double height = 0) 
 
 SceneOptions options_of(const Way& way) {
     SceneOptions options;
-    if (!way.automatic) options.shadows = ShadowMode::Explicit;
+    if (!way.automatic) options.quality.shadows = ShadowMode::Explicit;
     return options;
 }
 
@@ -272,7 +272,7 @@ TEST(SmoothShadow, HoldsForDisplacedMeshes) {
     cylinder(scene, "body", 12, 0.6).place("body", "probe");
     sun(scene, 80);
     SceneOptions options;
-    options.dice = 16;
+    options.quality.dice = 16;
     options.width = options.height = 96;
     Rendering r(scene.text(), options);
     r.frame(96, 96);

@@ -24,7 +24,7 @@ Dicing::Dicing(const SceneOptions& options, std::span<const DisplacedMesh> meshe
     : options_(options), meshes_(meshes), views_(views), stop_(stop), parts_(meshes.size()) {}
 
 void Dicing::run() {
-    pixels_ = coarse_enough(std::max(options_.dice, 1e-3));
+    pixels_ = coarse_enough(std::max(options_.quality.dice, 1e-3));
     while (pixels_ < kCoarsest && !dice_to(pixels_, options_.dice_limit)) pixels_ *= kCoarser;
     if (pixels_ >= kCoarsest) dice_to(pixels_, kNoLimit);
     made_.clear();

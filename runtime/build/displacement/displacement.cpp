@@ -36,8 +36,8 @@ void report_limit(const Scene& scene, bool again, Diagnostics& diagnostics) {
     const SceneOptions& options = scene.options;
     auto reported = [](const Finding& finding) { return finding.info == &Code::DICE_LIMIT; };
     if (again && std::ranges::any_of(diagnostics.findings(), reported)) return;
-    if (scene.dice.pixels > std::max(options.dice, 1e-3))
-        diagnostics.report(Code::DICE_LIMIT, Location{}, scene.dice.pixels, options.dice,
+    if (scene.dice.pixels > std::max(options.quality.dice, 1e-3))
+        diagnostics.report(Code::DICE_LIMIT, Location{}, scene.dice.pixels, options.quality.dice,
                            options.dice_limit);
 }
 

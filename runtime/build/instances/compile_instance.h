@@ -6,18 +6,18 @@
 #include <vector>
 
 #include "jit/compiler.h"
-#include "jit/math/math.h"
 #include "rsl/model/layer.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/shading/shader_instance.h"
+#include "runtime/trade/quality.h"
 
 namespace kinora {
 
 class KnownLayers;  // runtime/build/instances/compiled_layers.h
 
 struct ShaderInstanceOptions {
-    jit::math::Tier math = jit::math::Tier::Precise;
+    Quality quality;
     const jit::Target* target = nullptr;
     std::vector<std::string> light_messages;  // lights: names that some surface reads
     std::vector<std::string> aovs;            // surfaces: output parameters that the film keeps
@@ -26,9 +26,7 @@ struct ShaderInstanceOptions {
     std::vector<std::pair<std::string, std::string>>* dumps = nullptr;
     // Looked up and added to. All instances of a kind that share it have the same options.
     KnownLayers* known = nullptr;
-    bool own_lines = false;       // jit::CompileOptions
-    float opacity_threshold = 0;  // rsl::LowerOptions
-    bool derivatives = true;      // false: Du, Dv and the widths of filters are 0
+    bool own_lines = false;  // jit::CompileOptions
 };
 
 // The shaders as compile_instance() lowers them, their parameters bound.

@@ -20,10 +20,10 @@ std::optional<rsl::LoweredShader> lower_layers(std::span<const rsl::Layer> layer
 
 rsl::LowerOptions lower_options(const ShaderInstance& look, const ShaderInstanceOptions& options) {
     rsl::LowerOptions lower;
-    lower.math = options.math;
+    lower.math = options.quality.math;
     lower.spaces = options.spaces;
     lower.skip_transparent = true;
-    lower.opacity_threshold = options.opacity_threshold;
+    lower.opacity_threshold = float(options.quality.opacity_threshold);
     lower.messages = options.light_messages;
     lower.aovs = options.aovs;
     for (const std::string& name : options.gathered)
@@ -66,7 +66,7 @@ std::optional<CompiledLayers> compile_layers(const ShaderInstance& look,
     compile.files = &diagnostics.files;
     compile.own_lines = options.own_lines;
     std::optional<rsl::LoweredShader> lowered =
-        lower_layers(layers, lower, options.derivatives, diagnostics);
+        lower_layers(layers, lower, options.quality.derivatives, diagnostics);
     if (!lowered) return std::nullopt;
     CompiledLayers made;
     made.lowered = std::move(*lowered);
@@ -78,7 +78,7 @@ std::optional<CompiledLayers> compile_layers(const ShaderInstance& look,
         lower.aovs.clear();
         compile.dumps = nullptr;
         std::optional<rsl::LoweredShader> opacity =
-            lower_layers(layers, lower, options.derivatives, diagnostics);
+            lower_layers(layers, lower, options.quality.derivatives, diagnostics);
         if (!opacity) return std::nullopt;
         made.opacity = jit::compile(std::move(opacity->module), compile);
     }

@@ -10,9 +10,7 @@ InstanceCompiler::InstanceCompiler(Scene& scene, Diagnostics& diagnostics)
 }
 
 bool InstanceCompiler::compile(ShaderInstance& instance, ShaderInstanceOptions wanted) {
-    wanted.math = scene_.options.math;
-    wanted.opacity_threshold = scene_.options.opacity_threshold;
-    wanted.derivatives = scene_.options.derivatives;
+    wanted.quality = scene_.options.quality;
     wanted.target = scene_.options.target;
     wanted.spaces = &space_names_;
     if (scene_.options.want_dumps)

@@ -173,9 +173,8 @@ ShaderSwapper::ShaderSwapper(const Scene& scene, SceneDescription description,
     numbers_.values = scene.description->values;
     numbers_.animated = scene.description->animated;
     numbers_.animated.resize(numbers_.values.size(), false);
-    options_.math = scene.options.math;
+    options_.quality = scene.options.quality;
     options_.target = scene.options.target;
-    options_.opacity_threshold = scene.options.opacity_threshold;
     options_.own_lines = true;  // who edits may look at the code beside the text
     for (const OutputPlane& plane : outputs_) add_new_names(options_.aovs, {plane.parameter});
     for (const NodeDefinition& node : scene.description->nodes)

@@ -18,7 +18,7 @@ void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
     const MaterialDefinition& material =
         surface.material != kNone ? description.materials[surface.material] : default_material();
     vertices_.add(ShaderInstanceKind::Transformation, surface, use, material);
-    if (scene_.options.displacement != DisplacementMode::Bump)
+    if (scene_.options.quality.displacement != DisplacementMode::Bump)
         vertices_.add(ShaderInstanceKind::Displacement, surface, use, material);
     const Shape& shape = scene_.shapes[surface.shape];
     bool moved = surface.displacement.instance != kNone;

@@ -164,7 +164,7 @@ skin::SkinMesh skin_mesh_of(const Scene& scene, const MeshUse& use, size_t verti
     source.first = first;
     source.joints = joints;
     source.weights = weights;
-    source.max_influences = scene.options.influences;
+    source.max_influences = scene.options.quality.influences;
     return skin::build_skin(source, normal_positions, &repairs);
 }
 

@@ -172,7 +172,7 @@ class Explanation {
         if (!unanswered.empty())
             return fail(Agreement::Unexplained, fmt::format("the kernel made no such call of: {}",
                                                             fmt::join(unanswered, ", ")));
-        bool fast = scene_.options.math == jit::math::Tier::Fast;
+        bool fast = scene_.options.quality.math == jit::math::Tier::Fast;
         std::array<double, 3> moved{};
         bool decided = exact.decisions == single.decisions;
         if (!within(exact, single, moved, fast)) decided = shake(exact, single, moved) && decided;

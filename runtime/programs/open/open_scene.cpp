@@ -28,7 +28,7 @@ int scaled(const SceneRequest& request, double pixels) {
 
 SceneOptions scene_options(const SceneRequest& request) {
     SceneOptions o;
-    set_quality(o, request.quality);
+    o.quality = request.quality;
     o.camera = request.camera;
     o.view.follow = request.follow;
     o.view.yfov = request.yfov;
@@ -37,7 +37,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     if (!o.view.at) o.view.at_node = request.look_at;
     o.target = request.target;
     o.lights = request.lights;
-    o.accel.background = false;  // a frame depends on its time alone
+    o.background_rebuilds = false;  // a frame depends on its time alone
     o.decode_textures = request.color == ColorEncoding::Srgb;
     o.aovs = request.aovs;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
@@ -108,28 +108,6 @@ void set_range(ImportedScene& imported, const SceneRequest& request) {
 
 }  // namespace
 
-void set_quality(SceneOptions& o, const Quality& quality) {
-    o.math = quality.math;
-    o.shadows = quality.shadows;
-    o.ray_depth = quality.ray_depth;
-    o.diffuse_depth = quality.diffuse_depth;
-    o.split = quality.split;
-    o.ray_limit = quality.ray_limit;
-    o.accel.robust = quality.robust;
-    o.accel.always_rebuild = quality.always_rebuild;
-    o.accel.refit_limit = float(quality.refit_limit);
-    o.weak_lights = float(quality.weak_lights);
-    o.opacity_threshold = float(quality.opacity_threshold);
-    o.light_samples = quality.light_samples;
-    o.texture_filter = quality.texture_filter;
-    o.derivatives = quality.derivatives;
-    o.keys = {.rate = quality.key_rate, .rotation = quality.rotation};
-    o.displacement = quality.displacement;
-    o.skin_method = quality.skin_method;
-    o.influences = uint32_t(quality.influences);
-    o.dice = quality.dice;
-}
-
 std::optional<dvec3> parse_point(const std::string& text) {
     dvec3 p;
     char tail = 0;
@@ -180,6 +158,11 @@ BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
     return built;
 }
 
+void set_sampling(raytrace::IntegratorSettings& settings, const Quality& quality) {
+    settings.samples_per_pixel = quality.samples_per_pixel;
+    settings.filter = &raytrace::pixel_filters()[size_t(quality.filter)];
+}
+
 FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Pose& pose,
                              Diagnostics& diagnostics, const std::atomic<int>* stop) {
     FrameSettings settings;
@@ -187,8 +170,7 @@ FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Po
     double width = request.width ? request.width : 640;
     settings.width = scaled(request, width);
     settings.height = scaled(request, request.height ? request.height : width / aspect);
-    settings.integrator.samples_per_pixel = request.quality.samples_per_pixel;
-    settings.integrator.filter = &raytrace::pixel_filters()[size_t(request.quality.filter)];
+    set_sampling(settings.integrator, request.quality);
     settings.integrator.filter_width = request.filter_width;
     settings.integrator.background = request.background;
     settings.integrator.nan = request.nan;

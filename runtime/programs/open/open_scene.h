@@ -28,9 +28,6 @@ std::optional<dvec3> parse_point(const std::string& text);
 std::optional<ImportedScene> import_requested(const SceneRequest& request,
                                               Diagnostics& diagnostics);
 
-// The settings of knobs that a scene is built with.
-void set_quality(SceneOptions& options, const Quality& quality);
-
 struct BuiltScene {
     std::unique_ptr<Scene> scene;      // null: findings say why
     std::unique_ptr<Pose> pose;        // that its frames are made in
@@ -38,6 +35,9 @@ struct BuiltScene {
 };
 BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
                           const BuildAgain* again = nullptr);
+
+// Samples and filter of each pixel.
+void set_sampling(raytrace::IntegratorSettings& settings, const Quality& quality);
 
 // The picture's size, its samples, filter and so on, and its gain. Automatic exposure makes small
 // pictures of the scene in `pose`; a `stop` that is not 0 ends them.

@@ -517,7 +517,7 @@ int Render::choose_settings_for_target() {
     tell_target(targeted_->begin_text());
     options_.quality = chosen->quality;
     if (scene_key(asked_.quality) == scene_key(options_.quality)) return kExitOk;
-    set_quality(unbuilt_->options, options_.quality);
+    unbuilt_->options.quality = options_.quality;
     const size_t known = diagnostics_.findings().size();
     built_ = build_imported(std::move(*unbuilt_), diagnostics_);
     diagnostics_.drop_repeats(known);

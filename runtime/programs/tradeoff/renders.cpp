@@ -20,7 +20,7 @@ WorkCounts work_of(const FrameStats& s) {
 
 PosedScene TradeRenders::build(const Quality& quality) {
     ImportedScene imported = request_.imported;
-    set_quality(imported.options, quality);
+    imported.options.quality = quality;
     const size_t known = diagnostics_.findings().size();
     BuiltScene built = build_imported(std::move(imported), diagnostics_);
     diagnostics_.drop_repeats(known);
@@ -47,8 +47,7 @@ bool TradeRenders::pose(PosedScene& scene, double time) {
 bool TradeRenders::render(PosedScene& scene, const Quality& quality, const TradeFrame& frame,
                           uint32_t seed, raytrace::Film& film, FrameStats& stats) {
     FrameSettings settings = settings_;
-    settings.integrator.samples_per_pixel = quality.samples_per_pixel;
-    settings.integrator.filter = &raytrace::pixel_filters()[size_t(quality.filter)];
+    set_sampling(settings.integrator, quality);
     SceneRequest seeded;
     seeded.seed = request_.scene.seed + seed;
     settings.integrator.seed = frame_seed(seeded, frame.number);

@@ -292,7 +292,7 @@ TEST(GltfMorph, TargetsAddByWeightsOfTheMeshTheNodeAndChannels) {
 TEST(GltfMorph, AFrameAloneIsTheFrameInASequence) {
     Skinned s;
     SceneOptions options;
-    options.accel.background = false;  // as kinora-render has it
+    options.background_rebuilds = false;  // as kinora-render has it
     auto sequence = rendering_of(s.g, options), alone = rendering_of(s.g, options);
     for (double time : {0.0, 0.25, 0.75}) sequence->frame(time);
     alone->frame(0.75);

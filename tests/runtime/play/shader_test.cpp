@@ -63,6 +63,19 @@ TEST_F(WalkerCopy, AnEditGivesThePictureOfTheEditedFile) {
     EXPECT_EQ(pixels(again.player), edited);
 }
 
+// Without derivatives Du is 0, in edited shaders too.
+TEST_F(WalkerCopy, AnEditKeepsTheScenesSettings) {
+    SceneRequest request = small_request(file);
+    request.quality.derivatives = false;
+    Played played(request);
+    std::vector<uint8_t> before = pixels(played.player);
+    EXPECT_EQ(played.script("select_material wall-material; edit; find \"value * (Ka\"; "
+                            "type \"(1 + 1000 * abs(xcomp(Du(P)))) * \""),
+              "");
+    EXPECT_EQ(pixels(played.player), before);
+    EXPECT_EQ(played.player.shader().shown, played.player.shader().version);
+}
+
 TEST_F(WalkerCopy, SavingChangesTheTextAndNoOtherByte) {
     Played played(small_request(file));
     EXPECT_EQ(played.script("select_material wall-material; edit; find \"value * (Ka\"; "
