@@ -522,9 +522,9 @@ dvec3 probe(size_t k, double size) {
 }
 
 // Nobody reads what is printed here.
-class SilentHost : public SceneHost {
+class SilentHost : public UnlitHost {
   public:
-    using SceneHost::SceneHost;
+    using UnlitHost::UnlitHost;
     void print(const jit::ServiceCall&) override {}
 };
 

@@ -38,17 +38,19 @@ dmat4 SceneHost::current_from_space(std::string_view name, size_t) const {
 dmat4 SceneHost::world_from_current() const {
     return glm::inverse(kinora::current_from_space(scene_, pose_, "world", kNone));
 }
-void SceneHost::print(const jit::ServiceCall& call) {
-    printed_.add(call, 0);
-}
-void SceneHost::query(const jit::ServiceCall& call) {
-    answer_query(scene_, pose_, look_, nullptr, call);
-}
 void SceneHost::texture3d(const jit::ServiceCall& call) {
     look_up_points(scene_, pose_, call);
 }
 void SceneHost::photons(const jit::ServiceCall& call) {
     look_up_photons(scene_, pose_, call);
+}
+
+void UnlitHost::query(const jit::ServiceCall& call) {
+    answer_query(scene_, pose_, look_, nullptr, call);
+}
+
+void FrameHost::print(const jit::ServiceCall& call) {
+    printed_.add(call, 0);
 }
 
 dmat4 VertexHost::current_from_space(std::string_view name, size_t) const {
@@ -97,7 +99,7 @@ void GridHost::occlusion(const jit::ServiceCall& call) {
     StageScope stage(Stage::Nested);
     services_.rays.occlusion(grid_, call);
 }
-void GridHost::indirect_diffuse(const jit::ServiceCall& call) {
+void GridHost::indirectdiffuse(const jit::ServiceCall& call) {
     StageScope stage(Stage::Nested);
     services_.rays.indirect_diffuse(grid_, call);
 }
@@ -105,7 +107,7 @@ void GridHost::gather(const jit::ServiceCall& call) {
     StageScope stage(Stage::Nested);
     answer_handle(call, services_.gathers.gather(grid_, call));
 }
-void GridHost::ray_limit(const jit::ServiceCall& call) {
+void GridHost::raylimit(const jit::ServiceCall& call) {
     end_loops(grid_, call);
 }
 void GridHost::query(const jit::ServiceCall& call) {

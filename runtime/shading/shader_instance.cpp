@@ -119,7 +119,7 @@ float SceneNumbers::number(size_t index) const {
 
 namespace {
 
-void run_frame_kernel(const SceneKernel& kernel, const FrameContext& context, SceneHost& host,
+void run_frame_kernel(const SceneKernel& kernel, const FrameContext& context, FrameHost& host,
                       std::span<const dmat4> current_from_space, FrameBlock& block) {
     kernel.run_frame(block, SceneNumbers(context, current_from_space, kernel.inputs), host, {},
                      context.stop);
@@ -127,7 +127,7 @@ void run_frame_kernel(const SceneKernel& kernel, const FrameContext& context, Sc
 }
 
 void run_full(const ShaderInstance& look, const FrameContext& context, InstanceFrame& frame) {
-    SceneHost host(context.scene, context.pose, look);
+    FrameHost host(context.scene, context.pose, look);
     run_frame_kernel(look.full, context, host, frame.current_from_space, frame.full);
     frame.prints_asked = host.printed().asked();
     frame.prints_shown = host.printed().shown();
@@ -151,7 +151,7 @@ void ShaderInstance::update(const FrameContext& context, InstanceFrame& frame) c
             current_from_space(context.scene, context.pose, spaces[s], space_owner());
     run_full(*this, context, frame);
     if (!opacity) return;
-    SceneHost host(context.scene, context.pose, *this);
+    FrameHost host(context.scene, context.pose, *this);
     run_frame_kernel(*opacity, context, host, frame.current_from_space, frame.opacity);
 }
 

@@ -14,7 +14,7 @@ namespace kinora {
 // Record sets that the services `lights` and `gather` name.
 enum PatchRecordSet : int32_t { kPatchLights, kNoRays, kPatchRecordSets };
 
-class PatchHost : public KernelHost {
+class PatchHost : public WorldHost {
   public:
     // `prints` takes what the shader prints.
     PatchHost(const Patch& patch, PrintedLines& prints) : patch_(patch), prints_(prints) {}
@@ -27,6 +27,13 @@ class PatchHost : public KernelHost {
     void trace(const jit::ServiceCall& call) override;
     void transmission(const jit::ServiceCall& call) override;
     void gather(const jit::ServiceCall& call) override;
+    KINORA_UNANSWERED(occlusion)
+    KINORA_UNANSWERED(indirectdiffuse)
+    KINORA_UNANSWERED(raylimit)
+    KINORA_UNANSWERED(query)
+    KINORA_UNANSWERED(bake3d)
+    KINORA_UNANSWERED(texture3d)
+    KINORA_UNANSWERED(photons)
 
   private:
     const Patch& patch_;

@@ -12,7 +12,7 @@ namespace kinora {
 
 class PointsLights;
 
-class PointsHost : public KernelHost {
+class PointsHost : public WorldHost {
   public:
     PointsHost(const PointSet& points, TextureStore& textures, PointsLights* lights);
 
@@ -31,6 +31,12 @@ class PointsHost : public KernelHost {
     void transmission(const jit::ServiceCall& call) override;
     void gather(const jit::ServiceCall& call) override;
     void query(const jit::ServiceCall& call) override;
+    KINORA_UNANSWERED(occlusion)
+    KINORA_UNANSWERED(indirectdiffuse)
+    KINORA_UNANSWERED(raylimit)
+    KINORA_UNANSWERED(bake3d)
+    KINORA_UNANSWERED(texture3d)
+    KINORA_UNANSWERED(photons)
 
   private:
     const PointSet& points_;
