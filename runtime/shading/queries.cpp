@@ -21,17 +21,17 @@ char letter_of(rsl::BaseType type) {
 }
 
 // A triple is read as any triple; all else must be of the parameter's type.
-bool fits(const Question& question, rsl::Type type) {
-    Question own{{}, letter_of(type.base)};
-    bool same = question.type == own.type || (question.triple() && own.triple());
-    bool array = question.element == rsl::kQueryLength ||
-                 (question.element >= 0 && question.length == type.array_length);
-    return same && (type.is_array() ? array : question.element == -1);
+bool fits(const Query& query, rsl::Type type) {
+    Query own{{}, letter_of(type.base)};
+    bool same = query.type == own.type || (query.triple() && own.triple());
+    bool array = query.element == rsl::kQueryLength ||
+                 (query.element >= 0 && query.length == type.array_length);
+    return same && (type.is_array() ? array : query.element == -1);
 }
 
 // A point, vector or normal in "current" space.
 void to_current(rsl::BaseType type, const dmat4& current_from_space, const double* values,
-                Answer& answer) {
+                QueryAnswer& answer) {
     dvec3 current = parameter_in_current(type, current_from_space, values);
     for (uint32_t c = 0; c < 3; ++c) answer[c] = float(current[int(c)]);
 }
@@ -45,7 +45,7 @@ uint32_t surface_row(const Asker& asker) {
 
 // The same from the look's "shader" space: a surface's is that of what wears it.
 void to_current(rsl::BaseType type, const Asker& asker, const ShaderInstance& look,
-                const double* values, Answer& answer) {
+                const double* values, QueryAnswer& answer) {
     SpaceOwner owner = look.space_owner();
     uint32_t row = owner.node == kNone ? surface_row(asker) : kNone;
     if (row != kNone && asker.scene.surfaces[row].look == look.index)
@@ -61,11 +61,11 @@ rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
 
 // Bound to a vertex input: at hand where the surface's own kernel reads it, else made here.
 bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t layer,
-                   const Question& question, Answer& answer, bool* varying) {
+                   const Query& query, QueryAnswer& answer, bool* varying) {
     *varying = false;
     for (size_t which = 0; which < look.varying.size(); ++which) {
         const VaryingParam& v = look.varying[which];
-        if (v.layer != layer || v.name != question.name) continue;
+        if (v.layer != layer || v.name != query.name) continue;
         *varying = true;
         if (!asker.grid) return false;
         const Grid& grid = asker.grid->lit ? *asker.grid->lit : *asker.grid;
@@ -74,8 +74,8 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
         if (row == kNone ||
             asker.scene.shader_instances[asker.scene.surfaces[row].look].get() != &look)
             return false;
-        uint32_t count = uint32_t(question.components());
-        uint32_t first = question.element > 0 ? uint32_t(question.element) * count : 0;
+        uint32_t count = uint32_t(query.components());
+        uint32_t first = query.element > 0 ? uint32_t(query.element) * count : 0;
         for (uint32_t c = 0; c < count; ++c) {
             bool read = grid.look == &look && v.column != kNoColumn &&
                         grid.columns.size() > size_t(v.column + first + c);
@@ -99,8 +99,8 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
 }
 
 bool from_source(const Asker& asker, const ShaderInstance& look, const ParamSource& source,
-                 rsl::Type type, const Question& question, Answer& answer) {
-    size_t element = size_t(std::max(question.element, 0));
+                 rsl::Type type, const Query& query, QueryAnswer& answer) {
+    size_t element = size_t(std::max(query.element, 0));
     if (type.base == rsl::BaseType::String) {
         if (element >= source.strings.size()) return false;
         answer[0] = jit::float_of(rsl::intern(source.strings[element]));
@@ -123,9 +123,9 @@ bool from_source(const Asker& asker, const ShaderInstance& look, const ParamSour
 }
 
 bool from_default(const Asker& asker, const ShaderInstance& look,
-                  const rsl::ShaderParameter& parameter, const Question& question, Answer& answer) {
+                  const rsl::ShaderParameter& parameter, const Query& query, QueryAnswer& answer) {
     if (!parameter.constant) return false;
-    size_t element = size_t(std::max(question.element, 0));
+    size_t element = size_t(std::max(query.element, 0));
     const rsl::ConstantValue& value = *parameter.constant;
     if (parameter.type.base == rsl::BaseType::String) {
         if (element >= value.strings.size()) return false;
@@ -195,7 +195,7 @@ Asked whom(QueryKind kind, const Asker& asker) {
     }
 }
 
-bool answer_name(const Asker& asker, const Question& question, Answer& answer) {
+bool answer_name(const Asker& asker, const Query& query, QueryAnswer& answer) {
     struct Row {
         std::string_view name;
         QueryKind kind;
@@ -206,7 +206,7 @@ bool answer_name(const Asker& asker, const Question& question, Answer& answer) {
         {"incident", QueryKind::Incident},     {"opposite", QueryKind::Opposite},
         {"interior", QueryKind::Opposite},     {"exterior", QueryKind::Incident}};
     for (const Row& row : kRows) {
-        if (row.name != question.name) continue;
+        if (row.name != query.name) continue;
         Asked asked = whom(row.kind, asker);
         for (size_t l = asked.look ? asked.look->layers.size() : 0; l-- > 0;) {
             const rsl::Shader& shader = *asked.look->layers[l].shader;
@@ -218,11 +218,11 @@ bool answer_name(const Asker& asker, const Question& question, Answer& answer) {
     return false;
 }
 
-bool answer_question(QueryKind kind, const Asker& asker, const Question& question, Answer& answer) {
-    if (kind == QueryKind::ShaderName) return answer_name(asker, question, answer);
-    if (kind <= QueryKind::RayInfo) return answer_fact(kind, asker, question, answer);
+bool answer_query_at(QueryKind kind, const Asker& asker, const Query& query, QueryAnswer& answer) {
+    if (kind == QueryKind::ShaderName) return answer_name(asker, query, answer);
+    if (kind <= QueryKind::RayInfo) return answer_fact(kind, asker, query, answer);
     Asked asked = whom(kind, asker);
-    return asked.look && answer_parameter(asker, *asked.look, asked.kind, question, answer);
+    return asked.look && answer_parameter(asker, *asked.look, asked.kind, query, answer);
 }
 
 }  // namespace
@@ -232,25 +232,25 @@ const Surface& Asker::surface() const {
 }
 
 bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,
-                      const Question& question, Answer& answer) {
+                      const Query& query, QueryAnswer& answer) {
     for (size_t l = look.layers.size(); l-- > 0;) {
         const ShaderUse& use = look.layers[l];
         if (use.shader->kind != kind) continue;
         for (const rsl::ShaderParameter& parameter : use.shader->parameters) {
-            if (parameter.name != question.name) continue;
-            if (!fits(question, parameter.type)) return false;
-            if (question.element == rsl::kQueryLength) {
+            if (parameter.name != query.name) continue;
+            if (!fits(query, parameter.type)) return false;
+            if (query.element == rsl::kQueryLength) {
                 answer[0] = float(parameter.type.array_length);
                 return true;
             }
             bool varying;
-            if (from_vertices(asker, look, uint32_t(l), question, answer, &varying)) return true;
+            if (from_vertices(asker, look, uint32_t(l), query, answer, &varying)) return true;
             if (varying) return false;
             for (const ParamSource& source : use.params)
                 if (source.name == parameter.name &&
-                    from_source(asker, look, source, parameter.type, question, answer))
+                    from_source(asker, look, source, parameter.type, query, answer))
                     return true;
-            return from_default(asker, look, parameter, question, answer);
+            return from_default(asker, look, parameter, query, answer);
         }
     }
     return false;
@@ -263,7 +263,7 @@ constexpr int kLanes = jit::kMaxLanes, kAskedRows = 5;  // without `point`
 int32_t integer(const jit::ServiceCall& call, int row, int lane) {
     return jit::bits_of(call.args[row * kLanes + lane]);
 }
-Question question_of(const jit::ServiceCall& call, int lane) {
+Query query_of(const jit::ServiceCall& call, int lane) {
     return {rsl::interned(integer(call, 1, lane)), char(integer(call, 2, lane)),
             integer(call, 3, lane), integer(call, 4, lane)};
 }
@@ -282,29 +282,28 @@ bool ask_the_same(const jit::ServiceCall& call, int first) {
 
 void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
                   const Grid* grid, const jit::ServiceCall& call) {
-    auto answer_at = [&](int lane, Answer& answer) {
+    auto answer_at = [&](int lane, QueryAnswer& answer) {
         Asker asker{scene, pose, look, grid, 0, integer(call, 5, lane)};
         if (grid) asker.point = std::min(size_t(call.first + lane), grid->count() - 1);
-        return answer_question(QueryKind(integer(call, 0, lane)), asker, question_of(call, lane),
+        return answer_query_at(QueryKind(integer(call, 0, lane)), asker, query_of(call, lane),
                                answer);
     };
     if (call.mask == 0) return;
     int first = std::countr_zero(call.mask);
-    Question question = question_of(call, first);
-    if (is_same_for_grid(QueryKind(integer(call, 0, first)), question) &&
-        ask_the_same(call, first)) {
-        Answer answer{};
+    Query query = query_of(call, first);
+    if (is_same_for_grid(QueryKind(integer(call, 0, first)), query) && ask_the_same(call, first)) {
+        QueryAnswer answer{};
         std::fill_n(call.results, kLanes, jit::float_of(int32_t(answer_at(first, answer))));
-        for (int k = 0; k < question.components(); ++k)
+        for (int k = 0; k < query.components(); ++k)
             std::fill_n(call.results + (1 + k) * kLanes, kLanes, answer[size_t(k)]);
         return;
     }
     for (int lane = 0; lane < kLanes; ++lane) {
         call.results[lane] = jit::float_of(0);
-        Answer answer{};
+        QueryAnswer answer{};
         if (!(call.mask >> lane & 1) || !answer_at(lane, answer)) continue;
         call.results[lane] = jit::float_of(1);
-        for (int k = 0; k < question_of(call, lane).components(); ++k)
+        for (int k = 0; k < query_of(call, lane).components(); ++k)
             call.results[(1 + k) * kLanes + lane] = answer[size_t(k)];
     }
 }

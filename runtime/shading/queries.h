@@ -29,7 +29,7 @@ struct Asker {
 
 // What is asked for: a number of a type (letters of rsl/model/builtin.h), or an element of an
 // array.
-struct Question {
+struct Query {
     std::string_view name;
     char type = 'f';
     int element = -1;  // of an array of `length`; -1: no array; rsl::kQueryLength: how long it is
@@ -39,7 +39,7 @@ struct Question {
 };
 
 // An answer: up to 16 numbers, a string's id bit for bit.
-using Answer = std::array<float, 16>;
+using QueryAnswer = std::array<float, 16>;
 
 // The service; lanes without an answer get known = 0.
 // `grid`: of the points that ask; null at frame rate.
@@ -48,14 +48,14 @@ void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& lo
 
 // Rows of attribute(), option(), rendererinfo() and rayinfo(): facts by their customary names; a
 // prefix "Ri:" is the same without it. False where the name or the type is not known.
-bool answer_fact(rsl::QueryKind kind, const Asker& asker, const Question& question, Answer& answer);
+bool answer_fact(rsl::QueryKind kind, const Asker& asker, const Query& query, QueryAnswer& answer);
 
 // Whether the answer is the same for all points of a grid.
-bool is_same_for_grid(rsl::QueryKind kind, const Question& question);
+bool is_same_for_grid(rsl::QueryKind kind, const Query& query);
 
 // A shader parameter as it is bound (or its constant default): `kind` chooses the layer, the last
 // one first. False if there is none of that name and type.
 bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,
-                      const Question& question, Answer& answer);
+                      const Query& query, QueryAnswer& answer);
 
 }  // namespace kinora

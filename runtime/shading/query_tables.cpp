@@ -273,46 +273,46 @@ std::span<const Row> rows_of(rsl::QueryKind kind_asked) {
 constexpr std::string_view kOfTag[] = {"depth",         "type",         "label",
                                        "speculardepth", "diffusedepth", "shadowdepth"};
 
-std::string_view plain_name(const Question& question) {
-    std::string_view name = question.name;
+std::string_view plain_name(const Query& query) {
+    std::string_view name = query.name;
     if (name.starts_with("Ri:")) name.remove_prefix(3);
     return name;
 }
 
 // Several numbers are read as an array no longer than they are, of numbers, triples or matrices;
 // three as a triple, sixteen as a matrix.
-bool read(const Fact& fact, const Question& question, Answer& answer) {
+bool read(const Fact& fact, const Query& query, QueryAnswer& answer) {
     if (fact.is_text) {
-        if (question.type != 's' || question.element != -1) return false;
+        if (query.type != 's' || query.element != -1) return false;
         answer[0] = jit::float_of(rsl::intern(fact.text));
         return true;
     }
-    int width = question.components();
-    if (question.type == 's') return false;
-    if (question.element == rsl::kQueryLength) {
+    int width = query.components();
+    if (query.type == 's') return false;
+    if (query.element == rsl::kQueryLength) {
         answer[0] = float(fact.count / width);
         return fact.count % width == 0;
     }
-    bool array = question.element >= 0;
-    int first = array ? question.element * width : 0;
-    bool fits = array ? question.length <= fact.count / width && first + width <= fact.count
+    bool array = query.element >= 0;
+    int first = array ? query.element * width : 0;
+    bool fits = array ? query.length <= fact.count / width && first + width <= fact.count
                       : fact.count == width;
     for (int k = 0; fits && k < width; ++k) answer[size_t(k)] = fact.number(first + k);
     return fits;
 }
 
 // "user:NAME" of the node, else of the nodes above it.
-bool user_attribute(const Asker& asker, const Question& question, Answer& answer) {
+bool user_attribute(const Asker& asker, const Query& query, QueryAnswer& answer) {
     const Shape& shape = asker.scene.shapes[asker.surface().shape];
     for (uint32_t n = shape.node; n != kNone; n = asker.scene.nodes[n].parent) {
         const NodeDefinition& node =
             asker.scene.description->nodes[asker.scene.nodes[n].definition];
         for (const UserAttribute& user : node.attributes) {
-            if (user.name != question.name) continue;
+            if (user.name != query.name) continue;
             if (user.numbers.empty()) {
-                return read(Fact(std::string_view(user.text)), question, answer);
+                return read(Fact(std::string_view(user.text)), query, answer);
             }
-            return read(Fact(std::span<const double>(user.numbers)), question, answer);
+            return read(Fact(std::span<const double>(user.numbers)), query, answer);
         }
     }
     return false;
@@ -320,24 +320,23 @@ bool user_attribute(const Asker& asker, const Question& question, Answer& answer
 
 }  // namespace
 
-bool answer_fact(rsl::QueryKind kind_asked, const Asker& asker, const Question& question,
-                 Answer& answer) {
+bool answer_fact(rsl::QueryKind kind_asked, const Asker& asker, const Query& query,
+                 QueryAnswer& answer) {
     bool of_point =
         kind_asked == rsl::QueryKind::Attribute || kind_asked == rsl::QueryKind::RayInfo;
     if (of_point && !asker.grid) return false;
     if (kind_asked == rsl::QueryKind::Attribute && !asker.on_surface()) return false;
-    std::string_view name = plain_name(question);
+    std::string_view name = plain_name(query);
     for (const Row& row : rows_of(kind_asked))
-        if (row.name == name) return read(row.find(asker), question, answer);
-    return kind_asked == rsl::QueryKind::Attribute && user_attribute(asker, question, answer);
+        if (row.name == name) return read(row.find(asker), query, answer);
+    return kind_asked == rsl::QueryKind::Attribute && user_attribute(asker, query, answer);
 }
 
-bool is_same_for_grid(rsl::QueryKind kind_asked, const Question& question) {
+bool is_same_for_grid(rsl::QueryKind kind_asked, const Query& query) {
     if (kind_asked == rsl::QueryKind::Option || kind_asked == rsl::QueryKind::RendererInfo)
         return true;
     return kind_asked == rsl::QueryKind::RayInfo &&
-           std::find(std::begin(kOfTag), std::end(kOfTag), plain_name(question)) !=
-               std::end(kOfTag);
+           std::find(std::begin(kOfTag), std::end(kOfTag), plain_name(query)) != std::end(kOfTag);
 }
 
 }  // namespace kinora

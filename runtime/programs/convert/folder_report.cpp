@@ -11,9 +11,9 @@
 
 namespace kinora {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 // By Outcome.
 constexpr const char* kOutcomes[] = {"converted", "failed", "crashed", "not tried"};

@@ -14,10 +14,10 @@ namespace {
 struct Budget {
     std::string_view name;
     const char* noun;
-    size_t (*amount)(const SceneInfo&);
+    size_t (*amount)(const DocumentInfo&);
 };
 
-size_t largest_texture(const SceneInfo& info) {
+size_t largest_texture(const DocumentInfo& info) {
     size_t most = 0;
     for (const TextureInfo& texture : info.textures)
         most = std::max({most, size_t(texture.width), size_t(texture.height)});
@@ -25,24 +25,25 @@ size_t largest_texture(const SceneInfo& info) {
 }
 
 constexpr Budget kBudgets[] = {
-    {"triangles", "triangles", [](const SceneInfo& i) { return i.triangles; }},
-    {"vertices", "vertices", [](const SceneInfo& i) { return i.vertices; }},
-    {"joints", "joints", [](const SceneInfo& i) { return i.joints; }},
-    {"joints_per_skin", "joints in one skin", [](const SceneInfo& i) { return i.joints_per_skin; }},
-    {"influences", "influences on one vertex", [](const SceneInfo& i) { return i.influences; }},
-    {"uv_sets", "uv sets on one mesh", [](const SceneInfo& i) { return i.uv_sets; }},
-    {"nodes", "nodes", [](const SceneInfo& i) { return i.nodes; }},
-    {"meshes", "mesh instances", [](const SceneInfo& i) { return i.mesh_instances; }},
-    {"materials", "materials", [](const SceneInfo& i) { return i.materials.size(); }},
-    {"textures", "textures", [](const SceneInfo& i) { return i.textures.size(); }},
+    {"triangles", "triangles", [](const DocumentInfo& i) { return i.triangles; }},
+    {"vertices", "vertices", [](const DocumentInfo& i) { return i.vertices; }},
+    {"joints", "joints", [](const DocumentInfo& i) { return i.joints; }},
+    {"joints_per_skin", "joints in one skin",
+     [](const DocumentInfo& i) { return i.joints_per_skin; }},
+    {"influences", "influences on one vertex", [](const DocumentInfo& i) { return i.influences; }},
+    {"uv_sets", "uv sets on one mesh", [](const DocumentInfo& i) { return i.uv_sets; }},
+    {"nodes", "nodes", [](const DocumentInfo& i) { return i.nodes; }},
+    {"meshes", "mesh instances", [](const DocumentInfo& i) { return i.mesh_instances; }},
+    {"materials", "materials", [](const DocumentInfo& i) { return i.materials.size(); }},
+    {"textures", "textures", [](const DocumentInfo& i) { return i.textures.size(); }},
     {"texture_size", "pixels along a texture's side", largest_texture},
-    {"lights", "lights", [](const SceneInfo& i) { return i.lights; }},
-    {"clips", "clips", [](const SceneInfo& i) { return i.clips.size(); }},
+    {"lights", "lights", [](const DocumentInfo& i) { return i.lights; }},
+    {"clips", "clips", [](const DocumentInfo& i) { return i.clips.size(); }},
 };
 
 }  // namespace
 
-void check_budgets(const SceneInfo& info, const ValidateSettings& settings, Location where,
+void check_budgets(const DocumentInfo& info, const ValidateSettings& settings, Location where,
                    Diagnostics& diagnostics) {
     for (const auto& [name, most] : settings.budgets)
         for (const Budget& budget : kBudgets)

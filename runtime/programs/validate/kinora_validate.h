@@ -48,7 +48,7 @@ struct FileResult {
     std::array<size_t, 5> missing{};           // of these, files that are not there
     size_t hidden = 0;                         // beyond --max-issues
     size_t bytes = 0;
-    std::optional<SceneInfo> info;
+    std::optional<DocumentInfo> info;
 
     size_t count(Severity severity) const { return counts[size_t(severity)]; }
     size_t at_least(Severity severity) const;
@@ -90,7 +90,7 @@ int validate_batch(const ValidateSettings& settings, const std::vector<std::stri
 int fix_batch(const ValidateSettings& settings, const std::vector<std::string>& files);
 
 // budget.cpp: findings where `info` passes a budget.
-void check_budgets(const SceneInfo& info, const ValidateSettings& settings, Location where,
+void check_budgets(const DocumentInfo& info, const ValidateSettings& settings, Location where,
                    Diagnostics& diagnostics);
 bool is_budget_name(std::string_view name);
 std::string budget_names();  // "triangles, joints, ..."

@@ -18,13 +18,13 @@ class RestBounds {
         for (const PlacedNode& p : placed_) world_.try_emplace(p.node, p.world);
     }
 
-    std::optional<SceneBounds> run() {
+    std::optional<RestBox> run() {
         for (const PlacedNode& p : placed_)
             for (const collada::MeshInstance& mesh : scene_.nodes[p.node].meshes)
                 add(mesh, p.world);
         if (!any_) return std::nullopt;
         double meter = scene_.asset.meter;
-        return SceneBounds{bounds_.low * meter, bounds_.high * meter};
+        return RestBox{bounds_.low * meter, bounds_.high * meter};
     }
 
   private:
@@ -95,13 +95,13 @@ class RestBounds {
     const collada::SceneData& scene_;
     std::vector<PlacedNode> placed_;
     std::map<uint32_t, dmat4> world_;  // of a node's first occurrence
-    SceneBounds bounds_;
+    RestBox bounds_;
     bool any_ = false;
 };
 
 }  // namespace
 
-std::optional<SceneBounds> rest_bounds(const collada::SceneData& scene) {
+std::optional<RestBox> rest_bounds(const collada::SceneData& scene) {
     return RestBounds(scene).run();
 }
 

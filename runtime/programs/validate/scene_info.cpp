@@ -35,7 +35,7 @@ size_t most_influences(const collada::Skin& skin) {
     return most;
 }
 
-void add_skin(const collada::Skin& skin, const collada::MeshInstance& mesh, SceneInfo& info,
+void add_skin(const collada::Skin& skin, const collada::MeshInstance& mesh, DocumentInfo& info,
               Seen& seen) {
     info.joints_per_skin = std::max(info.joints_per_skin, skin.joints.size());
     info.influences = std::max(info.influences, most_influences(skin));
@@ -43,8 +43,8 @@ void add_skin(const collada::Skin& skin, const collada::MeshInstance& mesh, Scen
         if (joint != kNone) seen.joints.insert(joint);
 }
 
-void add_mesh(const collada::SceneData& scene, const collada::MeshInstance& mesh, SceneInfo& info,
-              Seen& seen) {
+void add_mesh(const collada::SceneData& scene, const collada::MeshInstance& mesh,
+              DocumentInfo& info, Seen& seen) {
     for (const collada::MaterialBinding& binding : mesh.materials)
         if (binding.material != kNone) seen.materials.insert(binding.material);
     if (mesh.geometry == kNone) return;
@@ -95,7 +95,7 @@ TextureInfo texture_info(const collada::Image& image) {
     return info;
 }
 
-void add_looks(const collada::SceneData& scene, SceneInfo& info, Seen& seen) {
+void add_looks(const collada::SceneData& scene, DocumentInfo& info, Seen& seen) {
     for (uint32_t m : seen.materials) {
         const collada::Material& material = scene.materials[m];
         info.materials.push_back(first_name(material.id, material.name));
@@ -105,7 +105,7 @@ void add_looks(const collada::SceneData& scene, SceneInfo& info, Seen& seen) {
         info.textures.push_back(texture_info(scene.images[image]));
 }
 
-void add_animation(const collada::SceneData& scene, SceneInfo& info) {
+void add_animation(const collada::SceneData& scene, DocumentInfo& info) {
     info.channels = scene.channels.size();
     for (const collada::Channel& channel : scene.channels) {
         const std::vector<double>& times = scene.samplers[channel.sampler].times;
@@ -121,9 +121,9 @@ void add_animation(const collada::SceneData& scene, SceneInfo& info) {
 
 }  // namespace
 
-SceneInfo scene_info(const collada::Document& document, const collada::SceneData& scene) {
+DocumentInfo scene_info(const collada::Document& document, const collada::SceneData& scene) {
     constexpr const char* kVersions[] = {"1.4.0", "1.4.1", "1.5.0"};
-    SceneInfo info;
+    DocumentInfo info;
     info.version = kVersions[size_t(document.version())];
     info.unit = scene.asset.unit_name;
     info.meter = scene.asset.meter;

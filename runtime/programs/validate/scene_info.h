@@ -19,18 +19,18 @@ struct TextureInfo {
     std::string format;              // "png"
 };
 
-struct ClipInfo {
+struct DocumentClip {
     std::string name;
     double start = 0, end = 0;  // seconds
     size_t channels = 0;
 };
 
-struct SceneBounds {
+struct RestBox {
     dvec3 low{0}, high{0};
 };
 
 // Counts speak of the visual scene with instance_node unrolled: what a picture has to draw.
-struct SceneInfo {
+struct DocumentInfo {
     std::string version;  // "1.4.1"
     std::string unit;     // its name, "" if not written
     double meter = 1;
@@ -45,21 +45,21 @@ struct SceneInfo {
     size_t morph_targets = 0;      // most on one mesh
     std::vector<std::string> materials;
     std::vector<TextureInfo> textures;
-    std::vector<ClipInfo> clips;
+    std::vector<DocumentClip> clips;
     size_t channels = 0;
     std::optional<std::pair<double, double>> animated;  // first and last key, seconds
     // Of the rest pose, metres, in the file's own axes; nothing if there is no surface.
-    std::optional<SceneBounds> bounds;
+    std::optional<RestBox> bounds;
 };
 
 // What --info says of a document and of what <scene> reaches in it.
-SceneInfo scene_info(const collada::Document& document, const collada::SceneData& scene);
+DocumentInfo scene_info(const collada::Document& document, const collada::SceneData& scene);
 
 // scene_bounds.cpp: node transforms, skins and morph weights at their rest values, metres.
-std::optional<SceneBounds> rest_bounds(const collada::SceneData& scene);
+std::optional<RestBox> rest_bounds(const collada::SceneData& scene);
 
 // The same as lines for people, and as one JSON object.
-std::string info_text(const std::string& name, const SceneInfo& info);
-std::string info_json(const SceneInfo& info);
+std::string info_text(const std::string& name, const DocumentInfo& info);
+std::string info_json(const DocumentInfo& info);
 
 }  // namespace kinora

@@ -10,24 +10,24 @@ namespace {
 
 struct Count {
     const char* name;
-    size_t SceneInfo::*member;
+    size_t DocumentInfo::*member;
 };
 constexpr Count kCounts[] = {
-    {"triangles", &SceneInfo::triangles},
-    {"vertices", &SceneInfo::vertices},
-    {"lines", &SceneInfo::lines},
-    {"nodes", &SceneInfo::nodes},
-    {"mesh_instances", &SceneInfo::mesh_instances},
-    {"meshes", &SceneInfo::meshes},
-    {"skins", &SceneInfo::skins},
-    {"joints", &SceneInfo::joints},
-    {"joints_per_skin", &SceneInfo::joints_per_skin},
-    {"influences", &SceneInfo::influences},
-    {"morph_targets", &SceneInfo::morph_targets},
-    {"uv_sets", &SceneInfo::uv_sets},
-    {"cameras", &SceneInfo::cameras},
-    {"lights", &SceneInfo::lights},
-    {"channels", &SceneInfo::channels},
+    {"triangles", &DocumentInfo::triangles},
+    {"vertices", &DocumentInfo::vertices},
+    {"lines", &DocumentInfo::lines},
+    {"nodes", &DocumentInfo::nodes},
+    {"mesh_instances", &DocumentInfo::mesh_instances},
+    {"meshes", &DocumentInfo::meshes},
+    {"skins", &DocumentInfo::skins},
+    {"joints", &DocumentInfo::joints},
+    {"joints_per_skin", &DocumentInfo::joints_per_skin},
+    {"influences", &DocumentInfo::influences},
+    {"morph_targets", &DocumentInfo::morph_targets},
+    {"uv_sets", &DocumentInfo::uv_sets},
+    {"cameras", &DocumentInfo::cameras},
+    {"lights", &DocumentInfo::lights},
+    {"channels", &DocumentInfo::channels},
 };
 
 std::string vector_json(const dvec3& v) {
@@ -54,14 +54,14 @@ std::string texture_json(const TextureInfo& t) {
         json_string(t.name), json_string(t.uri), t.found, t.width, t.height, json_string(t.format));
 }
 
-std::string clip_json(const ClipInfo& c) {
+std::string clip_json(const DocumentClip& c) {
     return fmt::format("{{\"name\": {}, \"start\": {}, \"end\": {}, \"channels\": {}}}",
                        json_string(c.name), json_number(c.start), json_number(c.end), c.channels);
 }
 
 }  // namespace
 
-std::string info_text(const std::string& name, const SceneInfo& info) {
+std::string info_text(const std::string& name, const DocumentInfo& info) {
     std::string text = fmt::format("{}: COLLADA {}, unit {}{} m, {}_UP\n", name, info.version,
                                    info.unit.empty() ? "" : info.unit + " = ", info.meter, info.up);
     for (const Count& count : kCounts)
@@ -73,7 +73,7 @@ std::string info_text(const std::string& name, const SceneInfo& info) {
     for (const TextureInfo& texture : info.textures)
         text += fmt::format("        {}\n", texture_text(texture));
     text += fmt::format("    {:<16} {}\n", "clips", info.clips.size());
-    for (const ClipInfo& clip : info.clips)
+    for (const DocumentClip& clip : info.clips)
         text += fmt::format("        {}: {} s to {} s, {} channels\n", clip.name, clip.start,
                             clip.end, clip.channels);
     if (info.animated)
@@ -86,7 +86,7 @@ std::string info_text(const std::string& name, const SceneInfo& info) {
     return text;
 }
 
-std::string info_json(const SceneInfo& info) {
+std::string info_json(const DocumentInfo& info) {
     std::string text = fmt::format(
         "{{\"version\": {}, \"unit\": {}, \"meter\": {}, \"up_axis\": \"{}\"",
         json_string(info.version), json_string(info.unit), json_number(info.meter), info.up);

@@ -35,9 +35,9 @@ class CommandPainter {
         : data_(data),
           vertices_(list.VtxBuffer.Data + command.VtxOffset),
           texture_(static_cast<const Texture*>(command.GetTexID())),
-          surface_{target, kernel, clip_of(command, target), texels_of(command.GetTexID())} {}
+          state_{target, kernel, clip_of(command, target), texels_of(command.GetTexID())} {}
 
-    bool hidden() const { return surface_.clip.empty(); }
+    bool hidden() const { return state_.clip.empty(); }
 
     void draw(std::span<const ImDrawIdx> indices) const {
         size_t i = 0;
@@ -75,20 +75,19 @@ class CommandPainter {
             return (t * static_cast<float>(size) - 0.5f) * 256.0f;
         };
         return {to_subpixels(scaled(v.pos.x, o.x, s.x)), to_subpixels(scaled(v.pos.y, o.y, s.y)),
-                texel(v.uv.x, surface_.texture.width), texel(v.uv.y, surface_.texture.height),
-                v.col};
+                texel(v.uv.x, state_.texture.width), texel(v.uv.y, state_.texture.height), v.col};
     }
 
     // Without a texture the vertex colours remain: a texel that is the same everywhere joins them.
     void triangle(Corner a, Corner b, Corner c) const {
-        if (!surface_.texture.texels || !same_texel(a, b) || !same_texel(a, c)) {
-            draw_triangle(surface_, a, b, c);
+        if (!state_.texture.texels || !same_texel(a, b) || !same_texel(a, c)) {
+            draw_triangle(state_, a, b, c);
             return;
         }
-        Surface plain = surface_;
+        DrawState plain = state_;
         plain.texture = {nullptr, 0, 0, 0, 0};
         if (!white_at(a)) {
-            draw_triangle(surface_, a, b, c);
+            draw_triangle(state_, a, b, c);
             return;
         }
         draw_triangle(plain, a, b, c);
@@ -98,7 +97,7 @@ class CommandPainter {
 
     // All texels that a look-up here could mix are opaque white, as at ImGui's white pixel.
     bool white_at(const Corner& at) const {
-        const SpanTexels& t = surface_.texture;
+        const SpanTexels& t = state_.texture;
         const auto x = static_cast<int>(std::floor(at.u / 256)),
                    y = static_cast<int>(std::floor(at.v / 256));
         for (int dy = 0; dy < 2; ++dy)
@@ -121,14 +120,13 @@ class CommandPainter {
         if (a.y != b.y || c.y != d.y || a.x != d.x || b.x != c.x) return false;
         if (a.x > b.x || a.y > d.y) return false;
         if (a.rgba != b.rgba || a.rgba != c.rgba || a.rgba != d.rgba) return false;
-        const PixelBox box{std::max(first_pixel(a.x), surface_.clip.x0),
-                           std::max(first_pixel(a.y), surface_.clip.y0),
-                           std::min(first_pixel(c.x), surface_.clip.x1),
-                           std::min(first_pixel(c.y), surface_.clip.y1)};
+        const PixelBox box{
+            std::max(first_pixel(a.x), state_.clip.x0), std::max(first_pixel(a.y), state_.clip.y0),
+            std::min(first_pixel(c.x), state_.clip.x1), std::min(first_pixel(c.y), state_.clip.y1)};
         if (box.empty()) return true;
-        if (!surface_.texture.texels || (same_texel(a, c) && white_at(a))) {
+        if (!state_.texture.texels || (same_texel(a, c) && white_at(a))) {
             for (int y = box.y0; y < box.y1; ++y)
-                surface_.kernel.solid(row(box.x0, y), box.x1 - box.x0, a.rgba);
+                state_.kernel.solid(row(box.x0, y), box.x1 - box.x0, a.rgba);
             return true;
         }
         if (a.v != b.v || c.v != d.v || a.u != d.u || b.u != c.u) return false;
@@ -137,7 +135,7 @@ class CommandPainter {
 
     // Texels that fall on pixel centres one to one: glyphs, and pictures without scale.
     bool texels_as_they_are(const Corner& a, const Corner& c, const PixelBox& box) const {
-        const SpanTexels& t = surface_.texture;
+        const SpanTexels& t = state_.texture;
         if (std::lrint(c.u - a.u) != c.x - a.x || std::lrint(c.v - a.v) != c.y - a.y) return false;
         const long left = texel_at(box.x0, a.x, a.u), top = texel_at(box.y0, a.y, a.v);
         if (left < 0 || top < 0) return false;
@@ -151,7 +149,7 @@ class CommandPainter {
             if (copy)
                 std::memcpy(row(box.x0, y), t.texels + 4 * at, static_cast<size_t>(count) * 4);
             else
-                surface_.kernel.masked(row(box.x0, y), count, t.texels + at, a.rgba);
+                state_.kernel.masked(row(box.x0, y), count, t.texels + at, a.rgba);
         }
         return true;
     }
@@ -165,14 +163,14 @@ class CommandPainter {
     }
 
     uint32_t* row(int x, int y) const {
-        const Target& t = surface_.target;
+        const Target& t = state_.target;
         return t.pixels + static_cast<size_t>(y) * static_cast<size_t>(t.stride) + x;
     }
 
     const ImDrawData& data_;
     const ImDrawVert* vertices_;
     const Texture* texture_;
-    Surface surface_;
+    DrawState state_;
 };
 
 }  // namespace

@@ -57,8 +57,8 @@ struct Plane {
 
 class Painter {
   public:
-    Painter(const Surface& surface, const Corner& a, const Corner& b, const Corner& c)
-        : surface_(surface), a_(a) {
+    Painter(const DrawState& state, const Corner& a, const Corner& b, const Corner& c)
+        : state_(state), a_(a) {
         flat_ = a.rgba == b.rgba && a.rgba == c.rgba;
         const double abx = to_pixels(b.x - a.x), aby = to_pixels(b.y - a.y);
         const double acx = to_pixels(c.x - a.x), acy = to_pixels(c.y - a.y);
@@ -73,10 +73,10 @@ class Painter {
     }
 
     void span(int y, int x, int count) const {
-        uint32_t* pixels = surface_.target.pixels +
-                           static_cast<size_t>(y) * static_cast<size_t>(surface_.target.stride) + x;
-        if (!surface_.texture.texels && flat_) {
-            surface_.kernel.solid(pixels, count, a_.rgba);
+        uint32_t* pixels = state_.target.pixels +
+                           static_cast<size_t>(y) * static_cast<size_t>(state_.target.stride) + x;
+        if (!state_.texture.texels && flat_) {
+            state_.kernel.solid(pixels, count, a_.rgba);
             return;
         }
         const double right = x + 0.5 - to_pixels(a_.x), down = y + 0.5 - to_pixels(a_.y);
@@ -92,9 +92,9 @@ class Painter {
         paint.v = at(v_);
         paint.u_dx = static_cast<float>(u_.dx);
         paint.v_dx = static_cast<float>(v_.dx);
-        paint.texture = surface_.texture;
-        (paint.texture.texels ? surface_.kernel.textured : surface_.kernel.shaded)(pixels, count,
-                                                                                   paint);
+        paint.texture = state_.texture;
+        (paint.texture.texels ? state_.kernel.textured : state_.kernel.shaded)(pixels, count,
+                                                                               paint);
     }
 
   private:
@@ -105,16 +105,16 @@ class Painter {
         return static_cast<double>(corner.rgba >> (8 * i) & 255);
     }
 
-    const Surface& surface_;
+    const DrawState& state_;
     const Corner& a_;
     bool flat_;
     Plane colors_[4], u_, v_;
 };
 
 // Rows from `begin` on, up to where one of the two edges ends.
-void rows(const Surface& surface, const Painter& painter, Edge& left, Edge& right, int begin,
+void rows(const DrawState& state, const Painter& painter, Edge& left, Edge& right, int begin,
           int end) {
-    const PixelBox& clip = surface.clip;
+    const PixelBox& clip = state.clip;
     for (int y = begin; y < end; ++y, left.next_row(), right.next_row()) {
         const auto x0 = std::max<int64_t>(left.x(), clip.x0);
         const auto x1 = std::min<int64_t>(right.x(), clip.x1);
@@ -124,25 +124,25 @@ void rows(const Surface& surface, const Painter& painter, Edge& left, Edge& righ
 
 }  // namespace
 
-void draw_triangle(const Surface& surface, const Corner& a, const Corner& b, const Corner& c) {
+void draw_triangle(const DrawState& state, const Corner& a, const Corner& b, const Corner& c) {
     const Corner *top = &a, *middle = &b, *bottom = &c;
     if (middle->y < top->y) std::swap(top, middle);
     if (bottom->y < middle->y) std::swap(middle, bottom);
     if (middle->y < top->y) std::swap(top, middle);
-    const int begin = std::max(first_pixel(top->y), surface.clip.y0);
-    const int end = std::min(first_pixel(bottom->y), surface.clip.y1);
+    const int begin = std::max(first_pixel(top->y), state.clip.y0);
+    const int end = std::min(first_pixel(bottom->y), state.clip.y1);
     if (begin >= end) return;
     // Where the middle corner lies: right of the long edge if this is positive.
     const int64_t side = (int64_t{middle->x} - top->x) * (int64_t{bottom->y} - top->y) -
                          (int64_t{bottom->x} - top->x) * (int64_t{middle->y} - top->y);
     if (side == 0) return;
-    const Painter painter(surface, a, b, c);
+    const Painter painter(state, a, b, c);
     Edge longest(*top, *bottom, begin);
     const int turn = std::clamp(first_pixel(middle->y), begin, end);
     const auto half = [&](const Corner& from, const Corner& to, int first, int last) {
         if (first >= last) return;
         Edge edge(from, to, first);
-        rows(surface, painter, side > 0 ? longest : edge, side > 0 ? edge : longest, first, last);
+        rows(state, painter, side > 0 ? longest : edge, side > 0 ? edge : longest, first, last);
     };
     half(*top, *middle, begin, turn);
     half(*middle, *bottom, turn, end);

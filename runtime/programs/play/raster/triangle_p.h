@@ -29,13 +29,13 @@ constexpr int first_pixel(int32_t coordinate) {
 }
 
 // What a draw command has in common.
-struct Surface {
+struct DrawState {
     const Target& target;
     const SpanKernel& kernel;
     PixelBox clip;
     SpanTexels texture;  // none: texels is null
 };
 
-void draw_triangle(const Surface& surface, const Corner& a, const Corner& b, const Corner& c);
+void draw_triangle(const DrawState& state, const Corner& a, const Corner& b, const Corner& c);
 
 }  // namespace kinora::play
