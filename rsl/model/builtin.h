@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rsl/model/signature_letters.h"
 #include "rsl/syntax/types.h"
 
 namespace kinora::rsl {
@@ -80,11 +81,29 @@ struct Builtin {
     const char* signature;
     LowerFn lower;
     RefFn ref;
-    uint32_t effects;   // Effects
-    int tolerance_ulp;  // largest error of the precise tier against the reference in double
-    const char* doc;    // one line for the manual
-    uint8_t legal = kAnyShader;  // LegalIn
-    const char* globals = "";    // shader globals read beside the arguments, space separated: "Ng"
+    uint32_t effects;     // Effects
+    int tolerance_ulp;    // largest error of the precise tier against the reference in double
+    const char* doc;      // one line for the manual
+    uint8_t legal;        // LegalIn
+    const char* globals;  // shader globals read beside the arguments, space separated: "Ng"
+
+    // A row with a malformed signature does not compile: the message has the row's name and letter
+    // (rsl/model/signature_letters.h).
+    consteval Builtin(const char* row_name, const char* row_signature, LowerFn row_lower,
+                      RefFn row_ref, uint32_t row_effects, int row_tolerance_ulp,
+                      const char* row_doc, uint8_t row_legal = kAnyShader,
+                      const char* row_globals = "")
+        : name(row_name),
+          signature(row_signature),
+          lower(row_lower),
+          ref(row_ref),
+          effects(row_effects),
+          tolerance_ulp(row_tolerance_ulp),
+          doc(row_doc),
+          legal(row_legal),
+          globals(row_globals) {
+        check_signatures(row_signature);
+    }
 };
 
 // One overload, decoded.
