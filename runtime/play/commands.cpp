@@ -1,6 +1,8 @@
 // runtime/play/commands.cpp: the table of commands, and a line's words.
 #include "runtime/play/commands.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -32,6 +34,28 @@ bool has_key(std::string_view keys, std::string_view key) {
     return false;
 }
 
+std::string subject_markdown(std::string_view title, std::string_view note) {
+    return fmt::format("\n**{}.**{}{}\n\n| command | keys | what it does |\n|---|---|---|\n", title,
+                       note.empty() ? "" : " ", note);
+}
+
+// "orbit right up" of "right:number up:number".
+std::string words_of(const Command& command) {
+    std::string words = command.word;
+    for (std::string& argument : split_words(command.arguments).texts) {
+        size_t colon = argument.find(':');
+        words += ' ' + argument.substr(0, colon) + (argument.ends_with(']') ? "]" : "");
+    }
+    return words;
+}
+
+std::string command_markdown(const Command& command) {
+    std::string keys;
+    for (const std::string& key : split_words(command.key).texts)
+        keys += fmt::format("{}`{}`", keys.empty() ? "" : " ", key);
+    return fmt::format("| `{}` | {} | {} |\n", words_of(command), keys, command.help);
+}
+
 // The character of an escape in a quoted text.
 char escaped(char c) {
     return c == 'n' ? '\n' : c == 't' ? '\t' : c;
@@ -56,6 +80,15 @@ const Command* find_command_of_key(std::string_view key) {
     auto found =
         std::ranges::find_if(kCommands, [&](const Command& c) { return has_key(c.key, key); });
     return found == std::end(kCommands) ? nullptr : found;
+}
+
+std::string commands_markdown() {
+    std::string text;
+#define SUBJECT(title, note) text += subject_markdown(title, note);
+#define COMMAND(word, ...) text += command_markdown(*find_command(#word));
+#include "runtime/play/commands.def"
+#undef COMMAND
+    return text.substr(1);
 }
 
 std::string quoted(const std::string& text) {

@@ -45,6 +45,9 @@ std::span<const Command> commands();
 const Command* find_command(std::string_view word);        // null: no such row
 const Command* find_command_of_key(std::string_view key);  // "Ctrl+S", as SDL names keys
 
+// The tables of docs/play.md: a line a row (scripts/docs).
+std::string commands_markdown();
+
 struct CommandResult {
     bool done = true;
     std::string message;  // why not, or what was found; "" nothing to say

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "runtime/play/commands.h"
 #include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
@@ -20,8 +21,14 @@ std::optional<int> parse_play_options(int argc, char** argv, PlayOptions& o) {
         {"--record", &o.record, nullptr, "FILE: writes a script of what is done"},
         {"--real-time", nullptr, &o.real_time,
          "without a window too, time runs by the clock and pictures adapt to it"},
+        {"--list-commands", nullptr, &o.list_commands,
+         "prints the tables of commands, as docs/play.md has them"},
     };
     if (auto code = parse_scene_options(argc, argv, program, o.scene)) return code;
+    if (o.list_commands) {
+        std::fputs(commands_markdown().c_str(), stdout);
+        return kExitOk;
+    }
     if (!o.headless) return std::nullopt;
     const std::string& scene = o.scene.scene;
     if (scene.empty()) {

@@ -13,6 +13,7 @@ struct PlayOptions {
     bool headless = false;
     bool real_time = false;  // headless: by the clock
     std::string script, screenshot, record;
+    bool list_commands = false;  // prints the tables of docs/play.md
 };
 
 // As parse_render_options.
