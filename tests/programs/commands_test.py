@@ -19,7 +19,7 @@ LEFT = {  # a command's first words: why it does not run here
     "KINORA_GDB=1": "needs gdb",
     "scripts/contact_sheet": "draws all shaders; a test of its own",
     "git": "changes the repository",
-    "build/release/bin/kinora-shade manual saturate": "the example is not in the language",
+    "build/release/bin/kinora-shade manual clamp01": "the example is not in the language",
 }
 PAGES = sorted([SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *(SOURCE / "docs").glob("*.md")])
 SMALL = '''#!/usr/bin/env python3
