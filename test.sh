@@ -6,14 +6,23 @@ cd "$(dirname "$0")"
 all=0
 [[ ${1:-} == --all ]] && all=1
 
+clock=$(mktemp)
+trap 'rm -f "$clock"' EXIT
+cpu_seconds() {  # sets cpu: user and system time of all commands that have ended
+    times >"$clock"
+    cpu=$(sed -n '2{s/[ms]/ /g;p}' "$clock" | awk '{printf "%d", 60 * ($1 + $3) + $2 + $4}')
+}
 table=""
-stage() {  # stage NAME COMMAND...: runs it and prints how long it took
-    local name=$1 start=$SECONDS
+stage() {  # stage NAME COMMAND...: runs it and prints the time it took, by the clock and of processors
+    local name=$1 start=$SECONDS before
     shift
     echo "== $name"
+    cpu_seconds
+    before=$cpu
     "$@"
-    echo "== $name: $((SECONDS - start)) s"
-    table+=$(printf '%6d s  %s' $((SECONDS - start)) "$name")$'\n'
+    cpu_seconds
+    echo "== $name: $((SECONDS - start)) s, $((cpu - before)) s of processors"
+    table+=$(printf '%8d %8d  %s' $((SECONDS - start)) $((cpu - before)) "$name")$'\n'
 }
 tests() {  # tests PRESET [ctest options]
     ctest --preset "$1" -j "$(nproc)" "${@:2}"
@@ -44,4 +53,5 @@ if ((all)); then
     stage "AArch64 fuzzing of code" scripts/fuzz build/arm64 code 20
     stage "AArch64 fuzzing of shaders" scripts/fuzz build/arm64 shaders 20
 fi
-printf '== stages\n%s%6d s  all\n' "$table" "$SECONDS"
+cpu_seconds
+printf '== stages, in seconds\n   clock      CPU\n%s%8d %8d  all\n' "$table" "$SECONDS" "$cpu"
