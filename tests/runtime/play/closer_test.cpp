@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 
 #include "../displacement_scenes.h"
 #include "played.h"
+#include "runtime/base/stats.h"
 #include "runtime/play/scene_maker.h"
 #include "runtime/programs/common/exit_codes.h"
 
@@ -66,36 +66,37 @@ TEST(Closer, MeshesAreDicedAgainWhileTheCameraMoves) {
     EXPECT_EQ(moving.script("adapt; filter; refine; " + near), "");
     // A hundredth of a pixel there and back, until the pictures are those of finer meshes.
     double best = coarse;
-    for (int k = 0; k < 2000 && best > coarse / 4; ++k) {
+    const Stopwatch watch;
+    for (int k = 0; watch.ms() < 1000 * kLong && best > coarse / 4; ++k) {
         EXPECT_EQ(moving.script(k % 2 ? "orbit -0.001 0" : "orbit 0.001 0"), "");
         ASSERT_TRUE(player.wait_picture(kLong));
         best = std::min(best, apart(player.picture()->film, fine));
-        usleep(1000);
     }
     EXPECT_LE(best, coarse / 4) << coarse;
     EXPECT_FALSE(player.picture()->refined);
 }
 
 // Scenes in the order in which they are made, until the maker has no more to do.
-std::vector<std::unique_ptr<ShownScene>> all_made(SceneMaker& maker) {
+std::vector<std::unique_ptr<ShownScene>> all_made(News& news, SceneMaker& maker) {
     std::vector<std::unique_ptr<ShownScene>> all;
-    while (!maker.idle()) {
-        if (auto made = maker.take()) all.push_back(std::move(made));
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    EXPECT_TRUE(news.await([&] {
+        while (auto made = maker.take()) all.push_back(std::move(made));
+        return maker.idle();
+    }));
     return all;
 }
 
 // The oracle is the scene that nobody hurries.
 TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
     const std::string file = floor_file(true);
-    SceneMaker hurried([] {}, true, false), slow([] {}, false, false);
+    News news;
+    SceneMaker hurried(news.bell(), true, false), slow(news.bell(), false, false);
     const auto open = [&](SceneMaker& maker) {
         SceneRequest request = small_request(file);
         request.look_from = dvec3(0.3, 0.2, 3);
         request.look_at = "0.3,0.2,0";
         maker.open(request, {}, true);
-        return all_made(maker);
+        return all_made(news, maker);
     };
     auto whole = open(slow), parts = open(hurried);
     ASSERT_EQ(whole.size(), 1u);
@@ -117,7 +118,7 @@ TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
     edits.hidden = {"low"};
     hurried.open(small_request(file), {}, true);
     hurried.edit(edits);
-    parts = all_made(hurried);
+    parts = all_made(news, hurried);
     ASSERT_FALSE(parts.empty());
     EXPECT_EQ(parts.back()->edits, edits);
     EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
@@ -129,11 +130,12 @@ TEST(Coarse, AFailedOpeningLeavesTheFinerSceneItsEdits) {
     const std::string file = floor_file(true);
     SceneEdits edits;
     edits.hidden = {"low"};
-    SceneMaker maker([] {}, true, false);
+    News news;
+    SceneMaker maker(news.bell(), true, false);
     maker.open(small_request(file), edits, true);
-    while (maker.counts().scenes == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(news.await([&] { return maker.counts().scenes > 0; }));
     maker.open(small_request(file + ".missing"), {}, true);
-    auto made = all_made(maker);
+    auto made = all_made(news, maker);
     std::filesystem::remove(file);
     std::erase_if(made, [](const auto& one) { return !one->scene; });
     ASSERT_FALSE(made.empty());
@@ -144,13 +146,14 @@ TEST(Coarse, AFailedOpeningLeavesTheFinerSceneItsEdits) {
 // A text that cannot be compiled is told, and the scene becomes finer without it.
 TEST(Coarse, ABrokenTextDoesNotKeepASceneCoarse) {
     const std::string file = floor_file();
-    SceneMaker maker([] {}, true, false);
+    News news;
+    SceneMaker maker(news.bell(), true, false);
     maker.open(small_request(file), {}, true);
-    while (maker.counts().scenes == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_TRUE(news.await([&] { return maker.counts().scenes > 0; }));
     SceneEdits edits;
     edits.texts = {{"look", file, "surface slopes( {", 1}};
     maker.edit(edits);
-    auto made = all_made(maker);
+    auto made = all_made(news, maker);
     std::filesystem::remove(file);
     const auto broken = std::ranges::find_if(made, [](const auto& one) { return !one->scene; });
     ASSERT_NE(broken, made.end());

@@ -4,9 +4,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <ctime>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include "runtime/base/parallel.h"
 #include "runtime/play/player.h"
@@ -27,6 +33,39 @@ inline void write(const std::string& file, const std::string& text) {
 }
 
 constexpr double kLong = 300;  // seconds: more is a hang
+
+// What other threads announce: PlayerSetup::wake, or SceneMaker's `done`.
+class News {
+  public:
+    std::function<void()> bell() {
+        return [this] {
+            {
+                const std::lock_guard lock(mutex_);
+                rung_ = true;
+            }
+            woken_.notify_all();
+        };
+    }
+
+    // Until it is so, looked at whenever the bell rings. False after so many seconds.
+    bool await(const std::function<bool()>& reached, double seconds = kLong) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+        while (!reached()) {
+            if (std::chrono::steady_clock::now() >= end) return false;
+            std::unique_lock lock(mutex_);
+            woken_.wait_for(lock, kLook, [&] { return rung_; });
+            rung_ = false;
+        }
+        return true;
+    }
+
+  private:
+    // A frame that begins rings no bell.
+    static constexpr std::chrono::milliseconds kLook{5};
+    std::mutex mutex_;
+    std::condition_variable woken_;
+    bool rung_ = false;
+};
 
 inline std::string scene_path(const std::string& name) {
     return project_folder() + "/assets/" + name;
@@ -65,7 +104,7 @@ struct OpenedScene {
 
 struct Played {
     explicit Played(const SceneRequest& request, PlayerSetup setup = {false, false, nullptr})
-        : player(setup) {
+        : player(with_bell(std::move(setup))) {
         player.open(request);
         EXPECT_TRUE(player.wait_loaded(kLong));
     }
@@ -81,6 +120,28 @@ struct Played {
         return said;
     }
 
+    // Until it is so: looked at whenever the player has something new. Each look takes it up, and
+    // time goes on by so many seconds.
+    bool until(const std::function<bool()>& reached, double seconds_a_look = 0) {
+        return news_.await([&] {
+            player.advance(seconds_a_look);
+            return reached();
+        });
+    }
+    // Until its threads are deep in a frame, by the CPU time that they take.
+    bool until_busy() {
+        const clock_t before = clock();
+        return until([&] { return clock() - before > CLOCKS_PER_SEC / 20; });
+    }
+
+  private:
+    PlayerSetup with_bell(PlayerSetup setup) {
+        setup.wake = news_.bell();
+        return setup;
+    }
+    News news_;  // before the player, which rings it
+
+  public:
     Player player;
 };
 

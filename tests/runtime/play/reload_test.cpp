@@ -9,14 +9,11 @@ namespace kinora {
 namespace {
 
 // Until the scene shown or the findings are other ones.
-bool wait_for_news(Player& player, const std::string& scene, size_t findings) {
-    for (int k = 0; k < 3000; ++k) {
-        player.advance(0.01);
-        if (player.observe(Observable::Scene) != scene || player.findings().size() != findings)
-            return true;
-        usleep(10000);
-    }
-    return false;
+bool wait_for_news(Played& played, const std::string& scene, size_t findings) {
+    const Player& player = played.player;
+    return played.until([&] {
+        return player.observe(Observable::Scene) != scene || player.findings().size() != findings;
+    });
 }
 
 TEST(Reload, KeepsCameraAndTimeAndOutlivesABrokenSave) {
@@ -32,18 +29,13 @@ TEST(Reload, KeepsCameraAndTimeAndOutlivesABrokenSave) {
     std::string scene = player.observe(Observable::Scene);
 
     write(file, good.substr(0, good.size() / 2));
-    ASSERT_TRUE(wait_for_news(player, scene, player.findings().size()));
+    ASSERT_TRUE(wait_for_news(played, scene, player.findings().size()));
     EXPECT_EQ(player.observe(Observable::Scene), scene);
     EXPECT_EQ(player.load_state(), LoadState::Ready);
     EXPECT_FALSE(player.findings().empty());
 
     write(file, good);
-    ASSERT_TRUE(wait_for_news(player, scene, 1 << 20));
-    for (int k = 0; k < 3000 && player.observe(Observable::Scene) == scene; ++k) {
-        player.advance(0);
-        usleep(10000);
-    }
-    EXPECT_NE(player.observe(Observable::Scene), scene);
+    ASSERT_TRUE(played.until([&] { return player.observe(Observable::Scene) != scene; }));
     EXPECT_EQ(player.observe(Observable::Camera), camera);
     EXPECT_EQ(player.observe(Observable::Time), "frame 7");
     EXPECT_TRUE(player.wait_idle(kLong));
@@ -79,7 +71,7 @@ TEST(Reload, FollowsTextures) {
     EXPECT_GT(reds().first, 100u);
     EXPECT_EQ(reds().second, 0u);
     paint(0, 255);
-    ASSERT_TRUE(wait_for_news(player, player.observe(Observable::Scene), player.findings().size()));
+    ASSERT_TRUE(wait_for_news(played, player.observe(Observable::Scene), player.findings().size()));
     ASSERT_TRUE(player.wait_idle(kLong));
     EXPECT_EQ(reds().first, 0u);
     EXPECT_GT(reds().second, 100u);

@@ -90,9 +90,8 @@ TEST(Still, AMoveLetsTheRefinementGo) {
     int moves = 0;
     for (; moves < 3 || (cancelled() < 3 && moves < 20); ++moves) {
         ASSERT_TRUE(player.wait_picture(kLong));
-        uint64_t serial = player.picture()->serial, frames = player.frames_rendered();
-        // It refines, perhaps since before it was asked.
-        for (int k = 0; k < 1000 && player.frames_rendered() < frames + 1; ++k) usleep(1000);
+        const uint64_t serial = player.picture()->serial;
+        ASSERT_TRUE(played.until_busy());  // it refines
         ASSERT_TRUE(player.run_line("orbit 5 0").done);
         ASSERT_TRUE(player.wait_picture(kLong));
         EXPECT_GT(player.picture()->serial, serial);
@@ -109,13 +108,12 @@ TEST(Still, APlayerThatIsTooSlowShowsPictures) {
     double after = 1000 * 3600;
     if (player.wait_picture(kLong)) after = player.stage_times().back().at;
     uint64_t first = 0;
-    for (int k = 0; k < 30000 && (first == 0 || player.picture()->serial < first + 3); ++k) {
-        player.advance(0.001);
-        if (first == 0 && player.picture()) first = player.picture()->serial;
-        usleep(1000);
-    }
-    ASSERT_TRUE(player.picture());
-    EXPECT_GE(player.picture()->serial, first + 3);
+    EXPECT_TRUE(played.until(
+        [&] {
+            if (first == 0 && player.picture()) first = player.picture()->serial;
+            return first > 0 && player.picture()->serial >= first + 3;
+        },
+        0.001));
     for (const StageTimes& times : player.stage_times())
         EXPECT_FALSE(times.cancelled && times.at > after);
 }

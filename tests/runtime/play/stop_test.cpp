@@ -1,7 +1,4 @@
 // tests/runtime/play/stop_test.cpp: shaders that loop for ever hold up nothing but their picture.
-#include <chrono>
-#include <thread>
-
 #include "runtime/base/stats.h"
 #include "runtime/play/picture/picture.h"
 #include "tests/runtime/play/played.h"
@@ -32,11 +29,10 @@ SceneRequest large_request() {
     return request;
 }
 
-void let_run(Player& player, double seconds) {
-    for (Stopwatch watch; watch.ms() < 1000 * seconds;) {
-        player.advance(0.01);
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+// Until a frame is in work, and its threads are in the loops of the shader.
+void let_run(Played& played, uint64_t begun) {
+    ASSERT_TRUE(played.until([&] { return played.player.frames_rendered() > begun; }, 0.01));
+    ASSERT_TRUE(played.until_busy());
 }
 
 std::vector<uint8_t> picture_with(Played& played, const char* text) {
@@ -51,10 +47,9 @@ TEST(Stop, AnEndlessShaderGivesWayToTheNextOne) {
         ASSERT_EQ(played.script("select_material bright; edit"), "");
         const std::vector<uint8_t> green = picture_with(played, kGood);
         for (const char* endless : kEndless) {
-            uint64_t begun = played.player.frames_rendered();
+            const uint64_t begun = played.player.frames_rendered();
             ASSERT_TRUE(played.player.run("set_text", {endless}).done);
-            while (played.player.frames_rendered() == begun) let_run(played.player, 0.01);
-            let_run(played.player, 0.2);
+            let_run(played, begun);
             Stopwatch watch;
             EXPECT_EQ(picture_with(played, kGood), green) << endless;
             EXPECT_LT(watch.ms(), 1000 * kSoon) << endless;
@@ -68,15 +63,13 @@ TEST(Stop, ACameraMoveEndsAnEndlessFrame) {
     // With all pixels: a few of them are done in time even with a million turns each.
     ASSERT_EQ(played.script("adapt; select_material bright; edit"), "");
     picture_with(played, kGood);
-    ASSERT_TRUE(player.run("set_text", {kEndless[1]}).done);
-    let_run(player, 0.5);
     uint64_t begun = player.frames_rendered();
+    ASSERT_TRUE(player.run("set_text", {kEndless[1]}).done);
+    let_run(played, begun);
     for (int k = 0; k < 3; ++k) {
-        ASSERT_EQ(played.script("orbit 10 0"), "");
-        for (Stopwatch watch; player.frames_rendered() == begun && watch.ms() < 1000 * kSoon;)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        ASSERT_GT(player.frames_rendered(), begun) << k;  // another one is in work
         begun = player.frames_rendered();
+        ASSERT_EQ(played.script("orbit 10 0"), "");
+        let_run(played, begun);  // another one is in work
     }
     EXPECT_TRUE(player.stage_times().back().cancelled);
     // Closing ends it, too.
