@@ -12,7 +12,7 @@
 #include "runtime/images/texture_store.h"
 #include "runtime/play/scene_maker.h"
 #include "tests/rsl/random_shader.h"
-#include "tests/runtime/live_memory.h"
+#include "tests/runtime/play/live_memory.h"
 #include "tests/runtime/play/played.h"
 
 namespace kinora {

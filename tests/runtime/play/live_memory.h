@@ -1,4 +1,4 @@
-// tests/runtime/live_memory.h: bytes that operator new has given out and not got back.
+// tests/runtime/play/live_memory.h: bytes that operator new has given out and not got back.
 #pragma once
 
 #include <cstddef>

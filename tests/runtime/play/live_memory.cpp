@@ -1,5 +1,5 @@
-// tests/runtime/live_memory.cpp: an operator new that adds up what lives. A file of its own, so
-// that no caller sees its body (GCC 12 would take free() for a mismatch).
+// tests/runtime/play/live_memory.cpp: an operator new that adds up what lives. A file of its own,
+// so that no caller sees its body (GCC 12 would take free() for a mismatch).
 #include "live_memory.h"
 
 #include <malloc.h>
