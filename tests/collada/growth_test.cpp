@@ -221,7 +221,7 @@ TEST_P(Growth, IsNearLinear) {
     const std::string few = GetParam().text(GetParam().few);
     const std::string many = GetParam().text(kTimes * GetParam().few);
     const Cost cost;
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(KINORA_SANITIZED)
     if (!cost.exact()) GTEST_SKIP() << "CPU time is judged without the sanitizer's own share";
 #endif
     const size_t rounds = cost.exact() ? 1 : 3;

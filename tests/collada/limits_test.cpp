@@ -247,7 +247,7 @@ uint64_t peak_of(Work work, bool& ended_well) {
     return uint64_t(usage.ru_maxrss) * 1024;
 }
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(KINORA_SANITIZED)
 constexpr bool kMeasured = false;  // its shadow memory counts
 #else
 constexpr bool kMeasured = true;

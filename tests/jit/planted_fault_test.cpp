@@ -109,7 +109,7 @@ bool is_of_no_machine(const FaultRow& row) {
 class PlantedFaults : public testing::TestWithParam<FaultRow> {};
 
 TEST_P(PlantedFaults, IsCaught) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(KINORA_SANITIZED)
     GTEST_SKIP() << "generated code is the same without sanitizers, and faster to compile";
 #endif
     const FaultRow& row = GetParam();
