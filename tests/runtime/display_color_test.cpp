@@ -105,7 +105,7 @@ TEST(CommonColors, FiveSlotsAreDecodedAndMeasuresAreNot) {
              "<ambient><color>0.25 0.25 0.5 1</color></ambient>"
              "<diffuse><color>0.5 0.25 0.125 0.5</color></diffuse>"
              "<specular><color>2 1 0.5 1</color></specular>"
-             "<shininess><float>0.5</float></shininess>"
+             "<shininess><float>5</float></shininess>"
              "<reflective><color>0.5 0.5 0.5 1</color></reflective>"
              "<reflectivity><float>0.25</float></reflectivity>"
              "<transparent opaque=\"RGB_ONE\"><color>0.5 0.25 0.5 0.125</color></transparent>"
@@ -116,7 +116,7 @@ TEST(CommonColors, FiveSlotsAreDecodedAndMeasuresAreNot) {
     expect_given(r, "ambient_color", {kQuarter, kQuarter, kHalf});
     expect_given(r, "diffuse", {kHalf, kQuarter, kEighth});
     expect_given(r, "specular", {2, 2 * kHalf, 2 * kQuarter});
-    expect_given(r, "shininess", {0.5});
+    expect_given(r, "shininess", {5});
     expect_given(r, "reflective", {kHalf, kHalf, kHalf});
     expect_given(r, "reflectivity", {0.25});
     expect_given(r, "transparent", {0.5, 0.25, 0.5});
