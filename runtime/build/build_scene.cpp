@@ -25,9 +25,6 @@
 
 namespace kinora {
 
-Scene::Scene() = default;
-Scene::~Scene() = default;
-
 namespace {
 
 std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description,
@@ -114,7 +111,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     scene.baked_samplers = anim::baked(scene.description->animation, key_options(options.quality));
     set_rows(scene);
     find_moving_parts(scene);
-    if (scene.moving.surfaces.empty()) scene.still_tree = std::make_unique<StillTree>();
+    if (scene.moving.surfaces.empty()) scene.still_tree = std::make_shared<StillTree>();
     drop_vertices(scene.start);
     return made;
 }

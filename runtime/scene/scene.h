@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "anim/animation.h"
+#include "runtime/base/memory/shared_vector.h"
 #include "runtime/description/scene_description.h"
 #include "runtime/scene/pose.h"
 #include "runtime/scene/scene_options.h"
@@ -152,25 +153,22 @@ struct DiceStats {
     double pixels = 0;  // edge length used; more than asked for where the limit bound
 };
 
-struct Scene {
-    Scene();
-    ~Scene();
-    Scene(const Scene&) = delete;
-
+// What copies of a scene share, or hold themselves where it is small.
+struct SceneParts {
     std::shared_ptr<SceneDescription> description;
     std::vector<anim::Sampler> baked_samplers;  // instead of the description's; none: those
 
-    std::vector<Node> nodes;
-    std::vector<Mesh> meshes;
-    std::vector<skin::Morph> morphs;
-    std::vector<Shape> shapes;
-    std::vector<Surface> surfaces;
+    SharedVector<Node> nodes;
+    SharedVector<Mesh> meshes;
+    SharedVector<skin::Morph> morphs;
+    SharedVector<Shape> shapes;
+    SharedVector<Surface> surfaces;
     std::vector<LightSource> lights;
     MovingParts moving;
     std::vector<CameraSource> cameras;
-    std::vector<std::unique_ptr<ShaderInstance>> shader_instances;
+    std::vector<std::shared_ptr<ShaderInstance>> shader_instances;
     // Displacements and transformations.
-    std::vector<std::unique_ptr<ShaderInstance>> vertex_instances;
+    std::vector<std::shared_ptr<ShaderInstance>> vertex_instances;
     uint32_t atmosphere = kNone;  // the volume outside all objects, into shader_instances
     uint32_t imager = kNone;      // what the finished picture is run through, into shader_instances
     std::vector<OutputPlane> outputs;
@@ -182,18 +180,25 @@ struct Scene {
     float world_light = 0;  // the brightness of the grey world that was added, which is no light
 
     DiceStats dice;
-    std::vector<std::unique_ptr<WatchedEdges>> watched;  // by displaced mesh that was diced
+    std::vector<std::shared_ptr<WatchedEdges>> watched;  // by displaced mesh that was diced
     std::vector<size_t> vertex_outputs;  // floats of each attribute with VertexAttribute::output
 
     dvec3 origin{0.0};
     double size = 1;  // diagonal of the first frame's bounds
     dvec3 low{0.0}, high{0.0};
 
-    std::vector<raytrace::Geometry> rows;    // one a surface; a pose has those of its own vertices
-    std::unique_ptr<StillTree> still_tree;   // null: something moves
+    SharedVector<raytrace::Geometry> rows;   // one a surface; a pose has those of its own vertices
+    std::shared_ptr<StillTree> still_tree;   // null: something moves
     std::shared_ptr<TextureStore> textures;  // what names in shaders stand for
     std::shared_ptr<PointStore> points;
     SceneOptions options;
+};
+
+struct Scene : SceneParts {
+    Scene() = default;
+    // Another scene that begins as that one does: its start is to be filled.
+    explicit Scene(const SceneParts& parts) : SceneParts(parts) {}
+    Scene(const Scene&) = delete;
 
     // As the scene stands at its start time. build_scene works in it, and takes its vertices away
     // at its end.
