@@ -2,6 +2,7 @@
 #include "raytrace/accel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cfloat>
 #include <cmath>
@@ -86,7 +87,7 @@ void rescale(RayPacket16& rays, uint32_t which, double length[kPacket]) {
     }
 }
 
-PacketRecorder* g_recorder = nullptr;
+std::atomic<PacketRecorder*> g_recorder = nullptr;
 
 }  // namespace
 
@@ -132,8 +133,8 @@ uint32_t any(const Accel::State& s, const RayPacket16& rays, TraceCounters& coun
 uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
                             TraceCounters& counters) const {
     const State& s = *state_;
-    if (g_recorder) [[unlikely]]
-        g_recorder->closest(rays);
+    if (PacketRecorder* recorder = g_recorder.load(std::memory_order_relaxed)) [[unlikely]]
+        recorder->closest(rays);
     ++counters.packets;
     counters.rays += uint64_t(std::popcount(rays.active & 0xffffu));
     if (s.scale == 1) return closest(s, rays, hits, counters);
@@ -144,8 +145,8 @@ uint32_t Accel::intersect16(const RayPacket16& rays, HitPacket16& hits,
 
 uint32_t Accel::occluded16(const RayPacket16& rays, TraceCounters& counters) const {
     const State& s = *state_;
-    if (g_recorder) [[unlikely]]
-        g_recorder->any(rays);
+    if (PacketRecorder* recorder = g_recorder.load(std::memory_order_relaxed)) [[unlikely]]
+        recorder->any(rays);
     ++counters.shadow_packets;
     counters.shadow_rays += uint64_t(std::popcount(rays.active & 0xffffu));
     return s.scale == 1 ? any(s, rays, counters) : any(s, scaled(rays, s.scale), counters);

@@ -13,7 +13,7 @@ class PacketRecorder {
     virtual void any(const RayPacket16& rays) = 0;      // of Accel::occluded16
 };
 
-// Of all Accels, until the next call; null: none. While no ray is under way.
+// Of all Accels, until the next call; null: none. Packets under way may still call the one before.
 void record_packets(PacketRecorder* recorder);
 
 }  // namespace kinora::raytrace

@@ -13,6 +13,10 @@ constexpr size_t kMostPoints = 8;
 
 }  // namespace
 
+void prepare_stories() {
+    watch_launches();
+}
+
 PixelStory pixel_story(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
                        const SourceFiles& files, int x, int y, int sample) {
     PixelStory story;

@@ -81,10 +81,13 @@ struct PixelStory {
     bool rays_cut = false;           // more than are kept
 };
 
+// Before the first frame of a program in which stories are told while frames are under way.
+void prepare_stories();
+
 // Runs sample `sample` of the pixel at that time again, as render_frame() with these settings. The
-// pose stands at the time afterwards, prints nothing and bakes nothing. On the thread that
-// renders; no other frame may be under way. `files`: that the shaders' locations speak of. Without
-// points where nothing is there or the camera makes no picture.
+// pose stands at the time afterwards, prints nothing and bakes nothing. Other poses may be rendered
+// meanwhile. `files`: that the shaders' locations speak of. Without points where nothing is there
+// or the camera makes no picture.
 PixelStory pixel_story(const Scene& scene, Pose& pose, double time, const FrameSettings& settings,
                        const SourceFiles& files, int x, int y, int sample);
 

@@ -8,6 +8,7 @@
 #include "runtime/play/pixel/point_inputs.h"
 #include "runtime/shading/grid.h"
 #include "runtime/shading/kernels/kernel_host.h"
+#include "runtime/shading/kernels/kernel_probe.h"
 #include "runtime/shading/nested_rays.h"
 
 namespace kinora {
@@ -16,7 +17,7 @@ namespace {
 
 using rsl::Service;
 
-PointRecorder* g_recorder = nullptr;
+thread_local PointRecorder* t_recorder = nullptr;
 
 jit::ServiceFn service_of(Service service) {
     return find_service(rsl::service_name(service));
@@ -25,7 +26,7 @@ jit::ServiceFn service_of(Service service) {
 template <size_t k>
 void stand_in(const jit::ServiceCall& call) {
     service_of(rsl::kServices[k])(call);
-    if (g_recorder) g_recorder->note(rsl::kServices[k], call);
+    if (t_recorder) t_recorder->note(rsl::kServices[k], call);
 }
 
 template <size_t... k>
@@ -82,14 +83,28 @@ std::vector<double> ask(KernelHost& host, Service service, std::span<const doubl
 
 }  // namespace
 
+void watch_launches() {
+    // Never taken away: other threads run kernels meanwhile.
+    struct Launches final : KernelProbe {
+        void run(const jit::KernelCall& call) override {
+            if (t_recorder)
+                t_recorder->run(call);
+            else
+                call.run();
+        }
+    };
+    static Launches launches;
+    static const bool watched = (probe_kernels(&launches), true);
+    static_cast<void>(watched);
+}
+
 PointRecorder::PointRecorder(std::function<void(RecordedPoint&)> found) : found_(std::move(found)) {
-    g_recorder = this;
-    probe_kernels(this);
+    watch_launches();
+    t_recorder = this;
 }
 
 PointRecorder::~PointRecorder() {
-    probe_kernels(nullptr);
-    g_recorder = nullptr;
+    t_recorder = nullptr;
 }
 
 void PointRecorder::run(const jit::KernelCall& call) {

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "runtime/play/pixel/recorded_calls.h"
-#include "runtime/shading/kernels/kernel_probe.h"
 #include "runtime/shading/scene_host.h"
 
 namespace kinora {
@@ -23,15 +22,15 @@ struct RecordedPoint {
     std::vector<LightsAt> lights_at;
 };
 
-// Runs all launches. At the camera's points (grids of one point) it notes what services answer.
-// One at a time; a thread of its own shades.
-class PointRecorder : public KernelProbe {
+// Sees the launches of the thread that makes it. At the camera's points (grids of one point) it
+// notes what services answer. One at a time a thread.
+class PointRecorder {
   public:
     explicit PointRecorder(std::function<void(RecordedPoint&)> found);
-    ~PointRecorder() override;
+    ~PointRecorder();
     PointRecorder(const PointRecorder&) = delete;
 
-    void run(const jit::KernelCall& call) override;
+    void run(const jit::KernelCall& call);
     // Called by a service's stand-in, after the service.
     void note(rsl::Service service, const jit::ServiceCall& call);
 
@@ -40,5 +39,8 @@ class PointRecorder : public KernelProbe {
     const GridHost* host_ = nullptr;  // of the point that is being recorded
     RecordedPoint* point_ = nullptr;
 };
+
+// Lets recorders see launches from now on. Before the first kernel runs.
+void watch_launches();
 
 }  // namespace kinora

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <mutex>
 
+#include "raytrace/packet_recorder.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -24,12 +26,45 @@ bool has_place(dvec3 v) {
     return std::isfinite(v.x + v.y + v.z);
 }
 
+thread_local RayRecorder* t_recorder = nullptr;
+
+// Sees the packets of all threads while one of them records. It is there for good, since a thread
+// may be about to call it when the last recorder ends.
+class Packets final : public raytrace::PacketRecorder {
+  public:
+    void closest(const raytrace::RayPacket16& rays) override {
+        if (t_recorder) t_recorder->record(rays, false);
+    }
+    void any(const raytrace::RayPacket16& rays) override {
+        if (t_recorder) t_recorder->record(rays, true);
+    }
+    void count(int recorders) {
+        std::lock_guard lock(mutex_);
+        recorders_ += recorders;
+        raytrace::record_packets(recorders_ > 0 ? this : nullptr);
+    }
+
+  private:
+    std::mutex mutex_;
+    int recorders_ = 0;
+} g_packets;
+
 }  // namespace
 
+RayRecorder::RayRecorder() {
+    t_recorder = this;
+    g_packets.count(1);
+}
+
+void RayRecorder::stop() {
+    if (!std::exchange(records_, false)) return;
+    g_packets.count(-1);
+    t_recorder = nullptr;
+}
+
 void RayRecorder::record(const raytrace::RayPacket16& rays, bool any) {
-    // Others may render: thumbnails, say. One more than is kept says that there were more.
-    if (std::this_thread::get_id() == thread_ && packets_.size() <= kMostPackets)
-        packets_.emplace_back(rays, any);
+    // One more than is kept says that there were more.
+    if (packets_.size() <= kMostPackets) packets_.emplace_back(rays, any);
 }
 
 void RayRecorder::tell(const Scene& scene, const Pose& pose, PixelStory& story) {
