@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/play/core_p.h"
-#include "runtime/play/pixel_insight.h"
 
 namespace kinora {
 
@@ -73,21 +72,18 @@ CommandResult action_pivot(PlayerCore& core, const Arguments& a) {
     std::string why_not;
     if (!core.own_camera(why_not)) return refused(why_not);
     int x = int(a.number(0)), y = int(a.number(1));
-    ViewOrder order = core.view_order();
-    core.ask({[&core, x, y, order](ShownScene& scene) -> Answer {
-                  PickedPixel picked = pick_pixel(scene.seen(), scene.seen_pose(), x, y,
-                                                  order.width, order.height, nullptr);
-                  return [&core, picked] {
-                      if (!picked.hit || !core.state.camera.free) return;
-                      FreeCamera& camera = core.state.camera.own;
-                      dvec3 eye = camera.eye();
-                      double along = glm::dot(eye - picked.P, camera.axes[2]);
-                      // The view stays: the pivot is as deep as what was picked.
-                      if (along > 0 && !camera.parallel) camera.distance = along;
-                      camera.pivot = eye - camera.distance * camera.axes[2];
-                  };
-              },
-              true});
+    core.inspect(true, [&core, x, y](Inspected& inspected) -> Answer {
+        const PickedPixel picked = pick_pixel(inspected, x, y);
+        return [&core, picked] {
+            if (!picked.hit || !core.state.camera.free) return;
+            FreeCamera& camera = core.state.camera.own;
+            dvec3 eye = camera.eye();
+            double along = glm::dot(eye - picked.P, camera.axes[2]);
+            // The view stays: the pivot is as deep as what was picked.
+            if (along > 0 && !camera.parallel) camera.distance = along;
+            camera.pivot = eye - camera.distance * camera.axes[2];
+        };
+    });
     return {};
 }
 
@@ -101,15 +97,14 @@ CommandResult action_frame_selection(PlayerCore& core, const Arguments&) {
     std::string why_not, node = core.state.selection.node;
     if (node.empty()) return refused("no node is selected");
     if (!core.own_camera(why_not)) return refused(why_not);
-    core.ask({[&core, node](ShownScene& scene) -> Answer {
-                  auto [low, high] =
-                      box_of(scene.seen(), scene.seen_pose(), find_node(scene.seen(), node));
-                  return [&core, low = low, high = high] {
-                      if (core.state.camera.free && low.x <= high.x)
-                          frame_box(core.state.camera.own, low, high, aspect_of(core));
-                  };
-              },
-              true});
+    core.inspect(true, [&core, node](Inspected& inspected) -> Answer {
+        const Scene& scene = inspected.scene;
+        auto [low, high] = box_of(scene, inspected.pose, find_node(scene, node));
+        return [&core, low = low, high = high] {
+            if (core.state.camera.free && low.x <= high.x)
+                frame_box(core.state.camera.own, low, high, aspect_of(core));
+        };
+    });
     return {};
 }
 
@@ -186,16 +181,15 @@ CommandResult action_follow(PlayerCore& core, const Arguments& a) {
     for (const NodeInfo& node : core.info->nodes) known.insert(known.end(), {node.path, node.name});
     if (std::ranges::find(known, wanted) == known.end())
         return refused(unknown_name("node", wanted, known), 1);
-    ViewOrder order = core.view_order();
-    core.ask({[&core, wanted, order](ShownScene& scene) -> Answer {
-                  std::optional<dvec3> position = place_of(scene, wanted, order.frame);
-                  return [&core, wanted, position] {
-                      if (!position) return;
-                      core.state.camera.follow = wanted;
-                      core.follow_from = *position;
-                  };
-              },
-              false});
+    core.inspect(false, [&core, wanted](Inspected& inspected) -> Answer {
+        const double time = time_of(inspected.shown, inspected.order);
+        std::optional<dvec3> position = place_at(inspected.scene, inspected.pose, wanted, time);
+        return [&core, wanted, position] {
+            if (!position) return;
+            core.state.camera.follow = wanted;
+            core.follow_from = *position;
+        };
+    });
     return {};
 }
 

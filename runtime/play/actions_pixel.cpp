@@ -5,25 +5,22 @@
 
 #include "runtime/explain/explain.h"
 #include "runtime/play/core_p.h"
-#include "runtime/play/pixel_insight.h"
-#include "runtime/scene/camera.h"
+#include "runtime/play/pixel/pixel_story.h"
 
 namespace kinora {
 
-std::shared_ptr<const PixelStory> story_of(ShownScene& scene, const ViewOrder& order, int x,
-                                           int y) {
-    PlacedCamera placed;
-    FrameSettings settings = refined_settings(scene, order, placed);
-    auto story = std::make_shared<PixelStory>(pixel_story(scene.seen(), scene.seen_pose(),
-                                                          time_of(scene, order), settings,
-                                                          scene.diagnostics->files, x, y, 0));
+std::shared_ptr<const PixelStory> story_of(const Inspected& inspected, int x, int y) {
+    const ViewOrder& order = inspected.order;
+    const double time = time_of(inspected.shown, order);
+    auto story = std::make_shared<PixelStory>(pixel_story(
+        inspected.scene, inspected.pose, time, inspected.settings, inspected.shown.texts, x, y, 0));
     story->frame = order.frame;
     return story;
 }
 
 namespace {
 
-constexpr double kExplainSeconds = 60;  // a frame may be in work
+constexpr double kExplainSeconds = 60;
 
 CommandResult write_text(PlayerCore& core, const std::string& file, const std::string& text) {
     std::ofstream out(file, std::ios::binary);
@@ -38,7 +35,7 @@ CommandResult write_text(PlayerCore& core, const std::string& file, const std::s
 CommandResult action_explain(PlayerCore& core, const Arguments& a) {
     if (!core.info) return refused("there is no scene yet");
     core.explain_scene();
-    core.wait_for([&] { return core.loop.has_answered(); }, kExplainSeconds);
+    core.wait_for([&] { return core.inspector.has_answered(); }, kExplainSeconds);
     const auto& rows = core.state.explained;
     if (!rows) return refused("the scene is not there yet");
     return write_text(core, a.text(0), explained_json(*rows));

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "runtime/play/core_p.h"
-#include "runtime/play/pixel_insight.h"
 #include "runtime/play/session/places.h"
 
 namespace kinora {
@@ -48,20 +47,18 @@ const MaterialInfo* find_material_info(const PlayerCore& core, const std::string
 CommandResult action_click(PlayerCore& core, const Arguments& a) {
     if (!core.info) return refused("there is no scene yet");
     int x = int(a.number(0)), y = int(a.number(1));
-    ViewOrder order = core.view_order();
-    auto picture = [&core] { return core.loop.picture(); };
-    core.ask({[&core, x, y, order, picture](ShownScene& scene) -> Answer {
-                  PickedPixel picked = pick_pixel(scene.seen(), scene.seen_pose(), x, y,
-                                                  order.width, order.height, picture().get());
-                  auto story = picked.hit ? story_of(scene, order, x, y) : nullptr;
-                  return [&core, picked, story] {
-                      core.state.selection.node = picked.node;
-                      core.state.selection.material = picked.material;
-                      core.state.selection.pixel = picked;
-                      core.state.selection.story = story;
-                  };
-              },
-              true});
+    core.inspect(true, [&core, x, y](Inspected& inspected) -> Answer {
+        PickedPixel picked = pick_pixel(inspected, x, y);
+        auto story = picked.hit ? story_of(inspected, x, y) : nullptr;
+        return [&core, picked, story, order = inspected.order] {
+            core.state.selection.node = picked.node;
+            core.state.selection.material = picked.material;
+            core.state.selection.pixel = picked;
+            core.state.selection.story = story;
+            core.picked_in = order;
+            core.color_pick();
+        };
+    });
     return {};
 }
 

@@ -13,6 +13,7 @@
 #include "runtime/images/texture_store.h"
 #include "runtime/play/clock.h"
 #include "runtime/play/picture/guide.h"
+#include "runtime/play/pixel/pixel_story.h"
 #include "runtime/trade/knobs.h"
 
 namespace kinora {
@@ -22,6 +23,12 @@ namespace {
 constexpr size_t kMostFindings = 1000;
 constexpr size_t kMostUndo = 200;
 constexpr double kAnswerSeconds = 600;
+
+// Other threads run kernels from here on.
+PlayerSetup prepared(PlayerSetup setup) {
+    prepare_stories();
+    return setup;
+}
 
 bool same(const FindingText& a, const FindingText& b) {
     return a.code == b.code && a.message == b.message && a.file == b.file && a.begin == b.begin;
@@ -45,7 +52,7 @@ double distance_to(const SceneInfo& info, const Picture& picture) {
 }  // namespace
 
 PlayerCore::PlayerCore(PlayerSetup player_setup)
-    : setup(std::move(player_setup)),
+    : setup(prepared(std::move(player_setup))),
       watch([this] {
           {
               std::lock_guard lock(wake_mutex);
@@ -55,6 +62,7 @@ PlayerCore::PlayerCore(PlayerSetup player_setup)
       }),
       loop(setup.real_time, [this] { wake(); }),
       maker([this] { wake(); }, setup.real_time, setup.shows_broken),
+      inspector([this] { wake(); }),
       thumbnails([this] { wake(); }),
       board([this] { wake(); }) {}
 
@@ -82,8 +90,9 @@ bool PlayerCore::wait_for(const std::function<bool()>& reached, double seconds) 
 }
 
 void PlayerCore::take_news() {
-    while (auto shown = maker.take()) take_scene(std::move(shown));
-    for (const Answer& answer : loop.take_answers()) answer();
+    while (auto made = maker.take()) take_scene(std::move(made));
+    for (const Answer& answer : inspector.take()) answer();
+    color_pick();
     add_new(frame_findings, loop.take_findings());
     note_stop();
     watch_images();
@@ -151,25 +160,28 @@ void PlayerCore::forget_stops() {
     state.picture.stops.clear();
 }
 
-void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
-    if (shown->finer) {  // what a later text is told stays
-        add_new(scene_findings, shown->findings);
+void PlayerCore::take_scene(std::unique_ptr<MadeScene> made) {
+    if (made->finer) {  // what a later text is told stays
+        add_new(scene_findings, made->findings);
     } else {
-        scene_findings = shown->findings;
-        take_text(*shown);
-        exit_code = shown->exit_code;
+        scene_findings = made->findings;
+        take_text(*made);
+        exit_code = made->exit_code;
     }
-    if (!shown->files.empty()) watch.watch(files = shown->files);
-    if (shown->swapped) return take_swap(*shown);
-    if (!shown->scene) {
+    if (!made->files.empty()) watch.watch(files = made->files);
+    if (made->swapped) return take_swap(*made);
+    if (!made->shown) {
         if (!info) load = LoadState::Failed;
-        if (shown->replaces_camera) keep_scene();
+        if (made->replaces_camera) keep_scene();
         return;  // the last good scene stays
     }
     const std::shared_ptr<const SceneInfo> before = info;
-    bool first = !before || shown->replaces_camera;
-    if (shown->replaces_camera) changes_before.reset();
-    info = shown->info;
+    bool first = !before || made->replaces_camera;
+    if (made->replaces_camera) changes_before.reset();
+    info = made->info;
+    shown = made->shown;
+    inspector.keep(shown);
+    picked_in.reset();
     textures = shown->scene->textures;
     images_watched = 0;
     request = shown->request;
@@ -200,7 +212,7 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
             state.picture.height = shown->settings.height;
         }
         if (std::optional<Session> taken = std::exchange(session, std::nullopt))
-            take_session(*taken, *shown);
+            take_session(*taken, *made);
     } else {
         const bool as_chosen = state.camera.index == before->camera;
         state.camera.index = as_chosen
@@ -208,17 +220,18 @@ void PlayerCore::take_scene(std::unique_ptr<ShownScene> shown) {
                                  : std::min(state.camera.index, uint32_t(info->cameras.size() - 1));
         time.frame = std::clamp(time.frame, time.first, time.last);
     }
-    loop.show(std::move(shown), view_order(), display_settings());
+    loop.show(std::move(made), view_order(), display_settings());
     send_order();
 }
 
 // The scene stays; its shaders are others.
-void PlayerCore::take_swap(ShownScene& shown) {
-    info = shown.info;
+void PlayerCore::take_swap(MadeScene& made) {
+    info = made.info;
+    shown = made.shown;
     for (const MaterialInfo& material : info->materials)
         if (material.id == document.material) document.params = material.params;
     frame_findings.clear();
-    loop.swap(std::move(*shown.swapped));
+    loop.swap(shown);
     send_order();
 }
 
@@ -252,18 +265,18 @@ bool PlayerCore::cancel_open() {
 
 std::optional<Awaited> PlayerCore::ordered() const {
     if (!maker.idle()) return std::nullopt;
-    return Awaited{loop.ordered(), loop.asked()};
+    return Awaited{loop.ordered(), inspector.asked()};
 }
 
 bool PlayerCore::picture_ready(const Awaited& of) const {
-    return loop.has_made(of.pictures) && loop.has_answered(of.questions) &&
+    return loop.has_made(of.pictures) && inspector.has_answered(of.questions) &&
            (loop.picture() || loop.idle());
 }
 
 // What a new scene begins with instead of its own beginning.
-void PlayerCore::take_session(const Session& taken, const ShownScene& shown) {
-    choose_camera(*shown.scene, *shown.pose, taken.camera);
-    state.camera.index = shown.pose->camera;
+void PlayerCore::take_session(const Session& taken, MadeScene& made) {
+    choose_camera(*shown->scene, *made.pose, taken.camera);
+    state.camera.index = made.pose->camera;
     if (taken.camera.own) {
         state.camera.own = *taken.camera.own;
         state.camera.free = true;
@@ -301,14 +314,14 @@ void PlayerCore::keep(std::shared_ptr<const Picture> picture) {
 }
 
 // What has become of the edited text.
-void PlayerCore::take_text(const ShownScene& shown) {
-    for (const SceneEdits::Text& text : shown.edits.texts) {
+void PlayerCore::take_text(const MadeScene& made) {
+    for (const SceneEdits::Text& text : made.edits.texts) {
         if (text.material != document.wearer || text.version == 0) continue;
         document.compiling = text.version != document.version;
-        document.compile_ms = shown.build_ms;
-        if (shown.scene || shown.swapped) document.shown = text.version;
+        document.compile_ms = made.build_ms;
+        if (made.shown) document.shown = text.version;
         document.findings.clear();
-        for (const FindingText& finding : shown.findings)
+        for (const FindingText& finding : made.findings)
             if (finding.file == document.name) document.findings.push_back(finding);
     }
 }
@@ -383,8 +396,8 @@ void PlayerCore::send_order() {
     if (!info) return;
     loop.order(view_order(), display_settings());
     order_thumbnails();
-    const bool shown = std::ranges::find(state.panels, "explained") != state.panels.end();
-    if (shown && std::exchange(explained_serial, info->serial) != info->serial) explain_scene();
+    const bool open = std::ranges::find(state.panels, "explained") != state.panels.end();
+    if (open && std::exchange(explained_serial, info->serial) != info->serial) explain_scene();
 }
 
 // The rows come with take_news().
@@ -392,12 +405,12 @@ void PlayerCore::explain_scene() {
     std::string preset(kDefaultQuality);
     for (const std::string& word : request.words)
         if (word.starts_with("--quality=")) preset = word.substr(word.find('=') + 1);
-    loop.ask({[this, preset](ShownScene& shown) -> Answer {
-                  auto rows = std::make_shared<const std::vector<Explained>>(
-                      explain(*shown.scene, *shown.pose, shown.request.quality, preset));
-                  return [this, rows] { state.explained = rows; };
-              },
-              false});
+    const auto look = [this, preset](Inspected& inspected) -> Answer {
+        auto rows = std::make_shared<const std::vector<Explained>>(
+            explain(inspected.scene, inspected.pose, inspected.shown.request.quality, preset));
+        return [this, rows] { state.explained = rows; };
+    };
+    inspector.add({shown, shown->scene, view_order(), true, look});
 }
 
 // While the panel is open: our shaders on the selected object, or on the first that wears the
@@ -417,10 +430,28 @@ void PlayerCore::order_thumbnails() {
     thumbnails.order({request, edits, selection.material, object->path, view_order()});
 }
 
-void PlayerCore::ask(Question question) {
+ViewOrder PlayerCore::seen_order() const {
+    // Without a clock it must not matter which picture is ready.
+    if (!setup.real_time || !state.time.playing) return view_order();
+    const PictureSource source = loop.source();
+    return source.shown == shown ? source.order : view_order();
+}
+
+void PlayerCore::inspect(bool poses, std::function<Answer(Inspected&)> look) {
     send_order();
-    loop.ask(std::move(question));
-    if (!setup.real_time) wait_for([&] { return loop.has_answered(); }, kAnswerSeconds);
+    const PictureSource source = loop.source();
+    const auto& scene = source.shown == shown ? source.scene : shown->scene;
+    inspector.add({shown, scene, seen_order(), poses, std::move(look)});
+    if (!setup.real_time) wait_for([&] { return inspector.has_answered(); }, kAnswerSeconds);
+}
+
+void PlayerCore::color_pick() {
+    std::optional<PickedPixel>& pixel = state.selection.pixel;
+    if (!picked_in || !pixel) return;
+    const PictureSource source = loop.source();
+    if (source.shown != shown || !source.order.same_picture(*picked_in)) return;
+    pixel->color = color_at(*source.picture, pixel->x, pixel->y);
+    picked_in.reset();
 }
 
 FreeCamera* PlayerCore::own_camera(std::string& why_not) {
@@ -434,32 +465,30 @@ FreeCamera* PlayerCore::own_camera(std::string& why_not) {
         why_not = "there is no scene yet";
         return nullptr;
     }
-    std::shared_ptr<const Picture> shown = loop.picture();
+    std::shared_ptr<const Picture> seen = loop.picture();
     Picture posed;
     if (!setup.real_time) {
         // Where the camera is at this time, without a picture of it.
-        ViewOrder order = view_order();
-        ask({[order, this](ShownScene& scene) {
-                 std::optional<raytrace::Camera> view = view_of(scene, order);
-                 dvec3 origin = scene.scene->origin;
-                 return [this, view, origin] {
-                     if (!view) return;
-                     answered_view = {*view, origin};
-                 };
-             },
-             false});
+        inspect(false, [this](Inspected& inspected) -> Answer {
+            const double time = time_of(inspected.shown, inspected.order);
+            const std::optional<raytrace::Camera> view =
+                view_of(inspected.scene, inspected.pose, inspected.order, time);
+            return [this, view, origin = inspected.scene.origin] {
+                if (view) answered_view = {*view, origin};
+            };
+        });
         if (answered_view) {
             posed.view = answered_view->first;
             posed.origin = answered_view->second;
             answered_view.reset();
-            shown = std::make_shared<Picture>(std::move(posed));
+            seen = std::make_shared<Picture>(std::move(posed));
         }
     }
-    if (!shown) {
+    if (!seen) {
         why_not = "there is no picture yet";
         return nullptr;
     }
-    camera.own = free_camera_of(shown->view, shown->origin, distance_to(*info, *shown));
+    camera.own = free_camera_of(seen->view, seen->origin, distance_to(*info, *seen));
     camera.free = true;
     if (setup.real_time) taken_camera = camera_text(camera.own);
     return &camera.own;

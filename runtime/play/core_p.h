@@ -8,6 +8,7 @@
 
 #include "runtime/base/stats.h"
 #include "runtime/play/files/file_watch.h"
+#include "runtime/play/inspector.h"
 #include "runtime/play/player.h"
 #include "runtime/play/render_loop.h"
 #include "runtime/play/scene_maker.h"
@@ -51,13 +52,16 @@ struct PlayerCore {
     uint64_t explained_serial = 0;  // of the scene that was explained last
     bool sized = false;             // by a command: another scene does not change it
     std::optional<std::pair<raytrace::Camera, dvec3>> answered_view;
+    std::optional<ViewOrder> picked_in;  // of a click whose picture is still to come
 
     FileWatch watch;
-    std::vector<std::string> files;          // that are watched
-    std::shared_ptr<TextureStore> textures;  // of the scene shown
+    std::vector<std::string> files;           // that are watched
+    std::shared_ptr<const ShownScene> shown;  // with `info`
+    std::shared_ptr<TextureStore> textures;   // of the scene shown
     int images_watched = 0;
     RenderLoop loop;
     SceneMaker maker;
+    Inspector inspector;
     Thumbnails thumbnails;
     TradeBoard board;
     std::optional<ViewOrder> board_view;  // of the board's pictures
@@ -71,14 +75,20 @@ struct PlayerCore {
     void send_order();
     ViewOrder view_order() const;
     DisplaySettings display_settings() const;
-    bool idle() const { return maker.idle() && loop.idle() && thumbnails.idle() && board.idle(); }
+    bool idle() const {
+        return maker.idle() && loop.idle() && inspector.idle() && thumbnails.idle() && board.idle();
+    }
     std::optional<Awaited> ordered() const;       // see Player
     bool picture_ready(const Awaited& of) const;  // or none can be made
     std::string observe(Observable what) const;
     std::string state_json() const;  // all observables and the edits, as texts
 
-    // The answer is run before this returns where no clock runs; else when it comes.
-    void ask(Question question);
+    // What the user sees: while the scene plays, the order of the picture shown.
+    ViewOrder seen_order() const;
+    // Looks something up in the scene as seen_order() has it. The answer is run before this returns
+    // where no clock runs; else when it comes. `poses`: Inspection's.
+    void inspect(bool poses, std::function<Answer(Inspected&)> look);
+    void color_pick();  // once the picture that was clicked is there
     // The camera that is moved by hand, as the picture shows it; null with a reason.
     FreeCamera* own_camera(std::string& why_not);
     void change_scene(SceneEdits edits);  // builds anew; undo brings the edits back
@@ -100,12 +110,12 @@ struct PlayerCore {
     void note_stop();  // the picture shown, as a stop of the slider of qualities
 
   private:
-    void take_text(const ShownScene& shown);
+    void take_text(const MadeScene& made);
     void order_thumbnails();
-    void take_scene(std::unique_ptr<ShownScene> shown);
-    void take_swap(ShownScene& shown);
+    void take_scene(std::unique_ptr<MadeScene> made);
+    void take_swap(MadeScene& made);
     void merge_findings();
-    void take_session(const Session& taken, const ShownScene& shown);
+    void take_session(const Session& taken, MadeScene& made);
 };
 
 // The words behind a command, as its row's `arguments` say them.

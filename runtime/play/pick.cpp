@@ -1,5 +1,5 @@
 // runtime/play/pick.cpp: a ray through a pixel, and the names of what it meets.
-#include "runtime/play/pixel_insight.h"
+#include "runtime/play/inspector.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -67,23 +67,25 @@ void name(const Scene& scene, uint32_t row, PickedPixel& picked) {
         picked.shader = scene.shader_instances[surface.look]->shader().name;
 }
 
-vec4 color_at(const Picture* picture, int x, int y) {
-    if (!picture || picture->film.width < 1 || picture->width < 1) return vec4(0.0f);
-    const raytrace::Film& film = picture->film;
-    int fx = std::min(int((x + 0.5) * film.width / picture->width), film.width - 1);
-    int fy = std::min(int((y + 0.5) * film.height / picture->height), film.height - 1);
+}  // namespace
+
+vec4 color_at(const Picture& picture, int x, int y) {
+    const raytrace::Film& film = picture.film;
+    const bool inside = x >= 0 && y >= 0 && x < picture.width && y < picture.height;
+    if (!inside || film.width < 1) return vec4(0.0f);
+    int fx = std::min(int((x + 0.5) * film.width / picture.width), film.width - 1);
+    int fy = std::min(int((y + 0.5) * film.height / picture.height), film.height - 1);
     return film.at(fx, fy);
 }
 
-}  // namespace
-
-PickedPixel pick_pixel(const Scene& scene, const Pose& pose, int x, int y, int width, int height,
-                       const Picture* picture) {
+PickedPixel pick_pixel(const Inspected& inspected, int x, int y) {
+    const Scene& scene = inspected.scene;
+    const Pose& pose = inspected.pose;
+    const int width = inspected.order.width, height = inspected.order.height;
     PickedPixel picked;
     picked.x = x;
     picked.y = y;
-    if (x < 0 || y < 0 || x >= width || y >= height) return picked;
-    picked.color = color_at(picture, x, y);
+    if (!inspected.stands || x < 0 || y < 0 || x >= width || y >= height) return picked;
     const raytrace::Camera& camera = pose.view;
     if (camera.width < 1 || camera.height < 1) return picked;
     raytrace::CameraRay ray = raytrace::camera_ray(camera, (x + 0.5) * camera.width / width,

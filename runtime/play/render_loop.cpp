@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/build/instances/shader_swap.h"
 #include "runtime/frame/frame.h"
 #include "runtime/play/denoise/denoiser.h"
 #include "runtime/play/pace/pacer.h"
@@ -42,6 +43,31 @@ void measure_costs(FrameSettings& settings, PixelCosts& costs) {
 
 }  // namespace
 
+struct RenderLoop::Posed {
+    std::shared_ptr<const ShownScene> shown;
+    std::unique_ptr<Pose> pose;
+    std::unique_ptr<Redicer> redicer;  // null where nothing is diced
+    std::unique_ptr<Diagnostics> diagnostics;
+    // With displaced meshes diced for a nearer view.
+    std::shared_ptr<const Scene> closer;
+    std::unique_ptr<Pose> closer_pose;
+    std::optional<ViewOrder> closer_view;  // the picture that it was diced for; none: a smaller one
+    bool shows_closer = false;             // which made the last picture
+
+    // What made the last picture.
+    const std::shared_ptr<const Scene>& seen() const {
+        return shows_closer ? closer : shown->scene;
+    }
+    Pose& seen_pose() const { return shows_closer ? *closer_pose : *pose; }
+    void swap(std::shared_ptr<const ShownScene> swapped);
+};
+
+void RenderLoop::Posed::swap(std::shared_ptr<const ShownScene> swapped) {
+    take_swaps(*shown->scene, *swapped->scene, *pose);
+    diagnostics->files = swapped->texts;
+    shown = std::move(swapped);
+}
+
 // Kept from frame to frame.
 struct RenderLoop::Memory {
     std::vector<std::shared_ptr<Picture>> pictures;
@@ -53,32 +79,32 @@ struct RenderLoop::Memory {
     double guide_ms = 0;  // of its rays that say where edges are (Pacer::kNeedsGuide)
     Denoiser denoiser;
     // What the denoiser has seen: of that scene, with those shaders and that light.
-    std::shared_ptr<ShownScene> filtered;
+    std::shared_ptr<Posed> filtered;
     double exposure = 0;
     uint32_t only_light = kNone;
-    bool noisy = true;                  // as far as is known
-    std::shared_ptr<ShownScene> paced;  // of whose times something is known
+    bool noisy = true;             // as far as is known
+    std::shared_ptr<Posed> paced;  // of whose times something is known
     void follow(const Step& step);
-    void pace(const std::shared_ptr<ShownScene>& scene, bool begins);
+    void pace(const std::shared_ptr<Posed>& posed, bool begins);
     std::optional<ViewOrder>
         dices_for;  // what the redicer was started for; none: a smaller picture
 };
 
 // Pictures of anything else say nothing about the next one.
 void RenderLoop::Memory::follow(const Step& step) {
-    if (filtered == step.scene && exposure == step.order.exposure &&
+    if (filtered == step.posed && exposure == step.order.exposure &&
         only_light == step.order.only_light)
         return;
-    filtered = step.scene;
+    filtered = step.posed;
     exposure = step.order.exposure;
     only_light = step.order.only_light;
     denoiser.forget();
     noisy = true;
 }
 
-void RenderLoop::Memory::pace(const std::shared_ptr<ShownScene>& scene, bool begins) {
-    if (begins && paced != scene) pacer.begin();
-    paced = scene;
+void RenderLoop::Memory::pace(const std::shared_ptr<Posed>& posed, bool begins) {
+    if (begins && paced != posed) pacer.begin();
+    paced = posed;
 }
 
 RenderLoop::RenderLoop(bool real_time, std::function<void()> wake)
@@ -108,13 +134,18 @@ RenderLoop::~RenderLoop() {
     for (std::thread& thread : threads_) thread.join();
 }
 
-void RenderLoop::show(std::shared_ptr<ShownScene> scene, const ViewOrder& order,
+void RenderLoop::show(std::unique_ptr<MadeScene> made, const ViewOrder& order,
                       const DisplaySettings& display) {
+    auto posed = std::make_shared<Posed>();
+    posed->shown = std::move(made->shown);
+    posed->pose = std::move(made->pose);
+    posed->redicer = std::move(made->redicer);
+    posed->diagnostics = std::move(made->diagnostics);
     {
         std::lock_guard lock(mutex_);
-        scene_ = std::move(scene);
-        if (scene_->replaces_camera) begins_ = true;
-        swaps_.clear();
+        posed_ = std::move(posed);
+        if (made->replaces_camera) begins_ = true;
+        swapped_.reset();
         take_order(order, display);
         want_picture();
         stop_ = 1;
@@ -122,10 +153,10 @@ void RenderLoop::show(std::shared_ptr<ShownScene> scene, const ViewOrder& order,
     wanted_.notify_one();
 }
 
-void RenderLoop::swap(SwappedShaders shaders) {
+void RenderLoop::swap(std::shared_ptr<const ShownScene> swapped) {
     {
         std::lock_guard lock(mutex_);
-        swaps_.push_back(std::move(shaders));
+        swapped_ = std::move(swapped);
         want_picture();
         stop_ = 1;
     }
@@ -168,37 +199,14 @@ void RenderLoop::order(const ViewOrder& order, const DisplaySettings& display) {
     overtaken_.notify_one();
 }
 
-void RenderLoop::ask(Question question) {
-    {
-        std::lock_guard lock(mutex_);
-        question.ordered = count_.ordered;
-        questions_.push_back(std::move(question));
-        ++count_.asked;
-        if (in_work_ && in_work_->pass != Pass::Quick) stop_ = 1;  // it begins again after it
-    }
-    wanted_.notify_one();
-    overtaken_.notify_one();
-}
-
 std::shared_ptr<const Picture> RenderLoop::picture() const {
     std::lock_guard lock(mutex_);
+    return shown_.picture;
+}
+
+PictureSource RenderLoop::source() const {
+    std::lock_guard lock(mutex_);
     return shown_;
-}
-
-std::vector<Answer> RenderLoop::take_answers() {
-    std::lock_guard lock(mutex_);
-    count_.taken = count_.answered;
-    return std::exchange(answers_, {});
-}
-
-uint64_t RenderLoop::asked() const {
-    std::lock_guard lock(mutex_);
-    return count_.asked;
-}
-
-bool RenderLoop::has_answered(uint64_t asked) const {
-    std::lock_guard lock(mutex_);
-    return !scene_ || count_.taken >= asked;
 }
 
 std::vector<FindingText> RenderLoop::take_findings() {
@@ -218,8 +226,7 @@ uint64_t RenderLoop::frames() const {
 
 bool RenderLoop::idle() const {
     std::lock_guard lock(mutex_);
-    return !working_ && (!scene_ || (next_ == Pass::Done && !display_changed_ &&
-                                     questions_.empty() && answers_.empty()));
+    return !working_ && (!posed_ || (next_ == Pass::Done && !display_changed_));
 }
 
 uint64_t RenderLoop::ordered() const {
@@ -229,7 +236,7 @@ uint64_t RenderLoop::ordered() const {
 
 bool RenderLoop::has_made(uint64_t ordered) const {
     std::lock_guard lock(mutex_);
-    return !scene_ || count_.made >= ordered;
+    return !posed_ || count_.made >= ordered;
 }
 
 void RenderLoop::run() {
@@ -240,11 +247,10 @@ void RenderLoop::run() {
         if (quit_) return;
         stop_ = 0;
         working_ = true;
-        bool renders = !step->question && !step->display_only;
-        if (renders) {
+        if (!step->display_only) {
             ++count_.begun;
             step->first = begins_;
-            memory_->pace(step->scene, begins_);
+            memory_->pace(step->posed, begins_);
             memory_->pacer.aim_at(1000 / std::max(step->order.hold_rate, 1e-3));
             const bool limited = step->pass == Pass::Quick && real_time_ && step->order.adapt;
             work_.limit = limited ? memory_->pacer.limit(step->order.playing) : kForEver;
@@ -253,25 +259,20 @@ void RenderLoop::run() {
             work_.began.restart();
             if (limited) overtaken_.notify_one();
         }
-        std::vector<SwappedShaders> swaps = std::exchange(swaps_, {});
+        std::shared_ptr<const ShownScene> swapped = std::exchange(swapped_, nullptr);
         lock.unlock();
-        for (SwappedShaders& shaders : swaps) {
-            apply_swap(*step->scene->scene, *step->scene->pose, std::move(shaders.swap));
-            step->scene->diagnostics->files = std::move(shaders.files);
+        if (swapped) {
+            step->posed->swap(std::move(swapped));
             memory_->filtered.reset();
         }
-        Outcome outcome;
-        if (renders) plan(*step);
-        if (step->question) {
-            answer(*step);
-            lock.lock();
-        } else if (step->display_only) {
+        if (step->display_only) {
             redisplay(*step);
             lock.lock();
         } else {
-            outcome = make(*step);
+            plan(*step);
+            const Outcome outcome = make(*step);
             lock.lock();
-            if (outcome.whole && step->scene == scene_) begins_ = false;
+            if (outcome.whole && step->posed == posed_) begins_ = false;
             finish(*step, outcome);
         }
         in_work_.reset();
@@ -285,7 +286,6 @@ void RenderLoop::run() {
 // With the lock. Does something wait for the end of the quick frame in work? Time that goes by is
 // nothing to wait for, and no move ends a scene's first one.
 bool RenderLoop::is_overtaken() const {
-    if (!questions_.empty() && !questions_.front().posed) return true;
     if (in_work_->first) return false;
     ViewOrder then = in_work_->order;
     then.frame = order_.frame;
@@ -322,18 +322,11 @@ void RenderLoop::end_late_frames() {
 
 // With the lock. What is to be done now, if anything.
 std::optional<RenderLoop::Step> RenderLoop::next_step() {
-    if (!scene_) return std::nullopt;
+    if (!posed_) return std::nullopt;
     Step step;
     step.order = order_;
     step.display = display_;
-    step.scene = scene_;
-    const Question* first = questions_.empty() ? nullptr : &questions_.front();
-    // While a scene plays, a quick picture is always still to come.
-    if (first && (!first->posed || next_ != Pass::Quick || count_.made >= first->ordered)) {
-        step.question = std::move(questions_.front());
-        questions_.pop_front();
-        return step;
-    }
+    step.posed = posed_;
     if (next_ == Pass::Done) {
         if (!display_changed_) return std::nullopt;
         step.display_only = true;
@@ -350,7 +343,7 @@ std::optional<RenderLoop::Step> RenderLoop::next_step() {
 
 // The pass's size and samples.
 void RenderLoop::plan(Step& step) const {
-    step.whole_samples = step.scene->settings.integrator.samples_per_pixel;
+    step.whole_samples = step.posed->shown->settings.integrator.samples_per_pixel;
     switch (step.pass) {
         case Pass::Quick:
             // Without a clock, what is refined is made at once.
@@ -408,10 +401,11 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     Outcome outcome;
     StageTimes& times = outcome.times;
     Stopwatch watch;
-    ShownScene& shown = *step.scene;
+    const Posed& posed = *step.posed;
     std::shared_ptr<Picture> to = free_picture();
     PlacedCamera placed;
-    FrameSettings settings = refined_settings(shown, step.order, placed);
+    FrameSettings settings =
+        refined_settings(*posed.shown, *posed.shown->scene, *posed.pose, step.order, placed);
     settings.width = std::max(1, int(std::lround(step.order.width * step.scale)));
     settings.height = std::max(1, int(std::lround(step.order.height * step.scale)));
     settings.integrator.samples_per_pixel = step.samples;
@@ -450,7 +444,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         if (filters) {
             StageTimer timer(filter);
             const bool known = memory_->first.places;
-            memory_->noisy = known ? memory_->denoiser.filter(*step.scene->scene, *step.scene->pose,
+            memory_->noisy = known ? memory_->denoiser.filter(*posed.shown->scene, *posed.pose,
                                                               memory_->first, to->film)
                                    : memory_->first.any_noise();
         }
@@ -463,7 +457,7 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
         times.present = present.ms() + filter;
         to->quick = step.pass == Pass::Quick;
         to->ms = watch.ms();
-        publish(std::move(to));
+        publish(std::move(to), step);
     }
     times.total = watch.ms();
     times.at = since_start_.ms();
@@ -489,13 +483,13 @@ void RenderLoop::pace(const StageTimes& times, bool whole, double fixed) {
 
 bool RenderLoop::render(const Step& step, bool closer, FrameSettings settings, Picture& to,
                         FrameStats& stats) {
-    ShownScene& shown = *step.scene;
-    Diagnostics& diagnostics = *shown.diagnostics;
-    shown.shows_closer = closer;
-    shown.seen_pose().camera = shown.pose->camera;
-    bool whole =
-        render_frame(shown.seen(), shown.seen_pose(), seconds_of(shown.rate, step.order.frame),
-                     settings, to.film, stats, diagnostics);
+    Posed& posed = *step.posed;
+    Diagnostics& diagnostics = *posed.diagnostics;
+    posed.shows_closer = closer;
+    posed.seen_pose().camera = posed.pose->camera;
+    const bool whole =
+        render_frame(*posed.seen(), posed.seen_pose(), time_of(*posed.shown, step.order), settings,
+                     to.film, stats, diagnostics);
     std::vector<FindingText> found = kinora::take_findings(diagnostics);
     if (!found.empty()) {
         std::lock_guard lock(mutex_);
@@ -506,35 +500,37 @@ bool RenderLoop::render(const Step& step, bool closer, FrameSettings settings, P
 
 // Diced for the scene's view as it stands. `exact`: the refined picture's own.
 void RenderLoop::dice_closer(const Step& step, const FrameSettings& settings, bool exact) {
-    ShownScene& shown = *step.scene;
-    CloserView view{seconds_of(shown.rate, step.order.frame), {}};
-    if (settings.camera) view.camera = shown.seen_pose().view;
-    shown.redicer->start(view);
+    const Posed& posed = *step.posed;
+    CloserView view{time_of(*posed.shown, step.order), {}};
+    if (settings.camera) view.camera = posed.seen_pose().view;
+    posed.redicer->start(view);
     memory_->dices_for.reset();
     if (exact) memory_->dices_for = step.order;
 }
 
-void RenderLoop::take_closer(ShownScene& shown) {
-    PosedScene closer = shown.redicer->take(*shown.diagnostics);
-    shown.closer_view.reset();
+void RenderLoop::take_closer(Posed& posed) {
+    PosedScene closer = posed.redicer->take(*posed.diagnostics);
+    posed.closer_view.reset();
     if (!closer) return;
-    shown.shows_closer = false;
-    shown.closer = std::move(closer);
-    shown.closer_view = memory_->dices_for;
+    posed.shows_closer = false;
+    posed.closer = std::move(closer.scene);
+    posed.closer_pose = std::move(closer.pose);
+    posed.closer_view = memory_->dices_for;
 }
 
 // With the finest meshes there are; while the camera comes closer, finer ones are diced meanwhile.
 bool RenderLoop::render_quick(const Step& step, const FrameSettings& settings, Picture& to,
                               FrameStats& stats) {
-    ShownScene& shown = *step.scene;
-    const bool dices = real_time_ && shown.redicer;
-    if (dices && shown.redicer->running() && shown.redicer->ready()) take_closer(shown);
-    const bool closer = dices && shown.closer;
+    Posed& posed = *step.posed;
+    const bool dices = real_time_ && posed.redicer;
+    if (dices && posed.redicer->running() && posed.redicer->ready()) take_closer(posed);
+    const bool closer = dices && posed.closer;
     const bool whole = render(step, closer, settings, to, stats);
     // In edges of the scene as loaded: the closer one may have had to be coarser.
-    const double error = stats.dice_error * shown.seen().dice.pixels / shown.scene->dice.pixels;
-    const bool known = shown.closer_view && shown.closer_view->same_picture(step.order);
-    if (dices && whole && error > kMostDiceError && !known && !shown.redicer->running())
+    const double error =
+        stats.dice_error * posed.seen()->dice.pixels / posed.shown->scene->dice.pixels;
+    const bool known = posed.closer_view && posed.closer_view->same_picture(step.order);
+    if (dices && whole && error > kMostDiceError && !known && !posed.redicer->running())
         dice_closer(step, settings, step.scale == 1);
     return whole;
 }
@@ -543,27 +539,28 @@ bool RenderLoop::render_quick(const Step& step, const FrameSettings& settings, P
 // diced for it too.
 bool RenderLoop::render_refined(const Step& step, const FrameSettings& settings, Picture& to,
                                 FrameStats& stats) {
-    ShownScene& shown = *step.scene;
+    Posed& posed = *step.posed;
     FrameSettings fine = settings;
-    fine.most_dice_error = shown.redicer ? kMostDiceError : 0;
+    fine.most_dice_error = posed.redicer ? kMostDiceError : 0;
     if (render(step, false, fine, to, stats)) return true;
     if (!stats.too_coarse || stop_) return false;
-    const double pixels = stats.dice_error * shown.scene->dice.pixels;
+    const double pixels = stats.dice_error * posed.shown->scene->dice.pixels;
     const auto is_this = [&](const std::optional<ViewOrder>& view) {
         return view && view->same_picture(step.order);
     };
-    if (!shown.closer || !is_this(shown.closer_view)) {
-        if (!shown.redicer->running() || !is_this(memory_->dices_for))
+    if (!posed.closer || !is_this(posed.closer_view)) {
+        if (!posed.redicer->running() || !is_this(memory_->dices_for))
             dice_closer(step, settings, true);
-        while (!shown.redicer->ready() && !stop_)
+        while (!posed.redicer->ready() && !stop_)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         if (stop_) return false;  // it goes on; the next start() may give it up
-        shown.shows_closer = false;
-        shown.closer = {};
-        take_closer(shown);
+        posed.shows_closer = false;
+        posed.closer_pose.reset();
+        posed.closer.reset();
+        take_closer(posed);
     }
-    if (shown.closer) {
-        fine.most_dice_error = pixels / shown.closer.scene->dice.pixels;
+    if (posed.closer) {
+        fine.most_dice_error = pixels / posed.closer->dice.pixels;
         if (render(step, true, fine, to, stats)) return true;
         if (stop_) return false;
     }
@@ -581,9 +578,9 @@ void RenderLoop::finish_picture(const Step& step, Picture& to) {
     to.width = step.order.width;
     to.height = step.order.height;
     to.frame = step.order.frame;
-    const Pose& pose = step.scene->seen_pose();
+    const Pose& pose = step.posed->seen_pose();
     to.view = pose.view;
-    to.origin = step.scene->seen().origin;
+    to.origin = step.posed->seen()->origin;
     const bool small = to.film.width != to.width || to.film.height != to.height;
     if (shows_guide(step.display.aov))
         make_guide(pose, to.width, to.height, to.guide);
@@ -604,19 +601,8 @@ void RenderLoop::guide_small(const Pose& pose, Picture& to) {
     refine_guide(pose, memory_->hits, (to.width + 1) / 2, (to.height + 1) / 2, to.guide);
 }
 
-void RenderLoop::answer(const Step& step) {
-    Answer answer = step.question->ask(*step.scene);
-    std::lock_guard lock(mutex_);
-    ++count_.answered;
-    if (answer) answers_.push_back(std::move(answer));
-}
-
 void RenderLoop::redisplay(const Step& step) {
-    std::shared_ptr<Picture> last;
-    {
-        std::lock_guard lock(mutex_);
-        last = shown_;
-    }
+    const std::shared_ptr<const Picture> last = picture();
     if (!last) return;
     std::shared_ptr<Picture> to = free_picture();
     uint64_t serial = to->serial;
@@ -639,7 +625,15 @@ std::shared_ptr<Picture> RenderLoop::free_picture() {
 void RenderLoop::publish(std::shared_ptr<Picture> picture) {
     picture->serial = ++memory_->serial;
     std::lock_guard lock(mutex_);
-    shown_ = std::move(picture);
+    shown_.picture = std::move(picture);
+}
+
+void RenderLoop::publish(std::shared_ptr<Picture> picture, const Step& step) {
+    picture->serial = ++memory_->serial;
+    const Posed& posed = *step.posed;
+    PictureSource source{std::move(picture), posed.shown, posed.seen(), step.order};
+    std::lock_guard lock(mutex_);
+    std::swap(shown_, source);
 }
 
 }  // namespace kinora

@@ -18,12 +18,12 @@
 
 namespace kinora {
 
-// Done between two frames, on the thread of the pictures; what it gives is run by who takes it.
-using Answer = std::function<void()>;
-struct Question {
-    std::function<Answer(ShownScene&)> ask;
-    bool posed = false;    // only once the scene has stood as the order before wants it
-    uint64_t ordered = 0;  // by then: set by ask()
+// A picture, and what made it.
+struct PictureSource {
+    std::shared_ptr<const Picture> picture;
+    std::shared_ptr<const ShownScene> shown;
+    std::shared_ptr<const Scene> scene;  // of `shown`, or it diced for a nearer view
+    ViewOrder order;
 };
 
 class RenderLoop {
@@ -36,18 +36,14 @@ class RenderLoop {
 
     // The scene from now on, with its first order: one made for another scene may name a camera
     // that this one does not choose.
-    void show(std::shared_ptr<ShownScene> scene, const ViewOrder& order,
+    void show(std::unique_ptr<MadeScene> made, const ViewOrder& order,
               const DisplaySettings& display);
-    // Other kernels in that scene, between two frames.
-    void swap(SwappedShaders shaders);
+    // The same scene with other shaders, from the next frame on.
+    void swap(std::shared_ptr<const ShownScene> swapped);
     void order(const ViewOrder& order, const DisplaySettings& display);
-    void ask(Question question);
 
     std::shared_ptr<const Picture> picture() const;
-    std::vector<Answer> take_answers();
-    uint64_t asked() const;                   // so many questions
-    bool has_answered(uint64_t asked) const;  // the first so many, and the answers were taken
-    bool has_answered() const { return has_answered(asked()); }
+    PictureSource source() const;  // of picture(), or nothing
     std::vector<FindingText> take_findings();
     std::vector<StageTimes> times() const;
     uint64_t frames() const;  // begun
@@ -60,13 +56,13 @@ class RenderLoop {
 
   private:
     enum class Pass : uint8_t { Quick, Whole, Some, Refined, Done };
+    struct Posed;  // a scene, and what its pictures are made in: of the thread alone
     struct Step {
         Pass pass = Pass::Quick;
         uint64_t ordered = 0;
         ViewOrder order;
         DisplaySettings display;
-        std::shared_ptr<ShownScene> scene;
-        std::optional<Question> question;
+        std::shared_ptr<Posed> posed;
         bool display_only = false;
         bool first = false;  // of another scene
         double scale = 1;
@@ -95,29 +91,27 @@ class RenderLoop {
     bool render_quick(const Step& step, const FrameSettings& settings, Picture& to,
                       FrameStats& stats);
     void dice_closer(const Step& step, const FrameSettings& settings, bool exact);
-    void take_closer(ShownScene& shown);
+    void take_closer(Posed& posed);
     bool render_refined(const Step& step, const FrameSettings& settings, Picture& to,
                         FrameStats& stats);
     bool is_filtered(const Step& step) const;
     void finish_picture(const Step& step, Picture& to);
     void guide_small(const Pose& pose, Picture& to);
     void redisplay(const Step& step);
-    void answer(const Step& step);
     std::shared_ptr<Picture> free_picture();
     void publish(std::shared_ptr<Picture> picture);
+    void publish(std::shared_ptr<Picture> picture, const Step& step);
 
     const bool real_time_;
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     std::condition_variable wanted_, overtaken_;
     // Guarded by the mutex.
-    std::shared_ptr<ShownScene> scene_;
+    std::shared_ptr<Posed> posed_;
+    std::shared_ptr<const ShownScene> swapped_;  // for it; null: none
     ViewOrder order_;
     DisplaySettings display_;
-    std::vector<SwappedShaders> swaps_;
-    std::deque<Question> questions_;
-    std::vector<Answer> answers_;
-    std::shared_ptr<Picture> shown_;
+    PictureSource shown_;
     std::vector<FindingText> findings_;
     std::deque<StageTimes> times_;
     Pass next_ = Pass::Done;
@@ -132,7 +126,6 @@ class RenderLoop {
     const Stopwatch since_start_;
     struct {
         uint64_t ordered = 0, made = 0;  // see ordered(), has_made()
-        uint64_t asked = 0, answered = 0, taken = 0;
         uint64_t begun = 0;
     } count_;
     // Of the thread.

@@ -66,10 +66,10 @@ void SceneMaker::order(Order order) {
     order_ = std::move(order);
 }
 
-std::unique_ptr<ShownScene> SceneMaker::take() {
+std::unique_ptr<MadeScene> SceneMaker::take() {
     std::lock_guard lock(mutex_);
     if (made_.empty()) return nullptr;
-    std::unique_ptr<ShownScene> first = std::move(made_.front());
+    std::unique_ptr<MadeScene> first = std::move(made_.front());
     made_.pop_front();
     return first;
 }
@@ -125,11 +125,11 @@ void SceneMaker::run() {
         replaces_camera_ = order.replaces_camera;
         cancelled_ = overtaken_ = false;
         lock.unlock();
-        std::unique_ptr<ShownScene> made = make(order);
+        std::unique_ptr<MadeScene> made = make(order);
         lock.lock();
         // Not again where it could not be made.
-        if (made && (made->scene || order.finer))
-            dicing_.coarse_shown = made->scene && dicing_.coarse;
+        const bool built = made && made->shown && !made->swapped;
+        if (built || (made && order.finer)) dicing_.coarse_shown = built && dicing_.coarse;
         if (made) put(std::move(made));
         if (dicing_.coarse_shown && !order_) order_ = Order{.edits = built_with_, .finer = true};
         working_ = false;
@@ -141,11 +141,10 @@ void SceneMaker::run() {
 }
 
 // With the lock.
-void SceneMaker::put(std::unique_ptr<ShownScene> made) {
-    if (made->swapped) counts_.kernels += made->swapped->swap.instances.size();
-    if (made->scene) {
+void SceneMaker::put(std::unique_ptr<MadeScene> made) {
+    if (made->shown && !made->swapped) {
         ++counts_.scenes;
-        const auto has_scene = [](const auto& before) { return bool(before->scene); };
+        const auto has_scene = [](const auto& before) { return before->shown && !before->swapped; };
         auto before = std::ranges::find_if(made_, has_scene);
         // A scene opened and not taken yet must not lose its place to the same one edited.
         if (before != made_.end()) made->replaces_camera |= (*before)->replaces_camera;
@@ -160,73 +159,73 @@ void SceneMaker::put(std::unique_ptr<ShownScene> made) {
 }
 
 // Null: cancelled. What was read before is left as it was by another scene that is not shown.
-std::unique_ptr<ShownScene> SceneMaker::make(const Order& order) {
-    auto shown = std::make_unique<ShownScene>();
-    shown->diagnostics = std::make_unique<Diagnostics>();
-    shown->edits = order.edits;
-    shown->replaces_camera = order.replaces_camera;
-    shown->finer = order.finer;
+std::unique_ptr<MadeScene> SceneMaker::make(const Order& order) {
+    auto made = std::make_unique<MadeScene>();
+    made->diagnostics = std::make_unique<Diagnostics>();
+    made->edits = order.edits;
+    made->replaces_camera = order.replaces_camera;
+    made->finer = order.finer;
     std::optional<AsRead> before;
     if (order.open && order.replaces_camera && read_.scene) before = std::exchange(read_, AsRead{});
-    make(order, *shown);
-    if (!goes_on(Opening::Step::None) || (order.finer && overtaken_)) shown.reset();
-    const bool good = shown && (shown->scene || shown->swapped);
+    make(order, *made);
+    if (!goes_on(Opening::Step::None) || (order.finer && overtaken_)) made.reset();
+    const bool good = made && made->shown;
     if (before && !good) {
         read_ = std::move(*before);
         swapper_.reset();  // the next edit builds
     }
-    if (!good) return shown;
+    if (!good) return made;
     ++serial_;
-    info_ = shown->info;
+    info_ = made->info;
+    last_ = made->shown;
     built_with_ = order.edits;
-    return shown;
+    return made;
 }
 
-void SceneMaker::make(const Order& order, ShownScene& shown) {
+void SceneMaker::make(const Order& order, MadeScene& made) {
     std::optional<SerialScope> serial;
     if (serial_ > 0) serial.emplace();  // the frames of the scene shown go first
     try {
         if (order.open) goes_on(Opening::Step::Reads);
-        const bool done =
-            order.open ? !read(*order.open, shown) : !order.finer && swap(order, shown);
+        const bool done = order.open ? !read(*order.open, made) : !order.finer && swap(order, made);
         const auto step = order.finer ? Opening::Step::Dices : Opening::Step::Builds;
-        if (!done && goes_on(step)) build(order, shown);
+        if (!done && goes_on(step)) build(order, made);
     } catch (const std::bad_alloc&) {
-        shown.scene.reset();
-        shown.exit_code = kExitRetry;
-        shown.findings.push_back(plain_finding("MEMORY", "there is not enough memory"));
+        made.shown.reset();
+        swapper_.reset();  // it may be that of a scene that is not shown
+        made.exit_code = kExitRetry;
+        made.findings.push_back(plain_finding("MEMORY", "there is not enough memory"));
     }
-    auto found = take_findings(*shown.diagnostics);
-    shown.findings.insert(shown.findings.end(), found.begin(), found.end());
+    auto found = take_findings(*made.diagnostics);
+    made.findings.insert(made.findings.end(), found.begin(), found.end());
 }
 
-bool SceneMaker::read(const SceneRequest& request, ShownScene& shown) {
-    Diagnostics& diagnostics = *shown.diagnostics;
+bool SceneMaker::read(const SceneRequest& request, MadeScene& made) {
+    Diagnostics& diagnostics = *made.diagnostics;
     diagnostics.judge(request.findings.judgement());
     if (request.findings.strict) diagnostics.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
-    shown.request = request;
-    shown.exit_code = kExitUnreadable;
+    made.exit_code = kExitUnreadable;
     std::optional<ImportedScene> imported = import_requested(request, diagnostics);
     read_.files.clear();
     for (FileId f = 0; f < diagnostics.files.count(); ++f)
         read_.files.push_back(diagnostics.files.name(f));
-    shown.files = read_.files;
+    made.files = read_.files;
     if (!imported) return false;
     if (!imported->clip_known) {
-        shown.exit_code = kExitUsage;
-        shown.findings.push_back(
+        made.exit_code = kExitUsage;
+        made.findings.push_back(
             plain_finding("CLIP_UNKNOWN", "the scene has no clip '" + request.clip + "'"));
         return false;
     }
-    shown.exit_code = exit_code_of_findings(diagnostics, kExitOk);
+    made.exit_code = exit_code_of_findings(diagnostics, kExitOk);
     read_.broken.clear();
     read_.broken_findings.clear();
-    if (shows_broken_ && shown.exit_code == kExitShader) {
+    if (shows_broken_ && made.exit_code == kExitShader) {
         for (const Finding& finding : diagnostics.findings())
             if (finding.severity == Severity::Error && finding.where.file != kNoFile)
                 add_broken_shaders(diagnostics.files, finding.where, read_.broken);
         read_.broken_findings = take_findings(diagnostics);
-    } else if (shown.exit_code != kExitOk) {
+    } else if (made.exit_code != kExitOk) {
         return false;
     }
     read_.scene = std::move(imported);
@@ -259,13 +258,11 @@ ImportedScene copy_without_geometry(ImportedScene& from) {
 
 }  // namespace
 
-void SceneMaker::begin(ShownScene& shown) const {
-    shown.request = read_.request;
-    shown.files = read_.files;
-    shown.rate = read_.scene->rate;
-    shown.exit_code = kExitShader;
-    shown.diagnostics->judge(read_.request.findings.judgement());
-    shown.diagnostics->files = read_.texts.fork();  // edited texts go when their scene does
+void SceneMaker::begin(MadeScene& made) const {
+    made.files = read_.files;
+    made.exit_code = kExitShader;
+    made.diagnostics->judge(read_.request.findings.judgement());
+    made.diagnostics->files = read_.texts.fork();  // edited texts go when their scene does
 }
 
 // A broken text is that of all materials that wear its effect, and so is what it becomes.
@@ -287,10 +284,10 @@ SceneEdits SceneMaker::with_shared_texts(SceneEdits edits) const {
 constexpr int kSwapsKept = 32;
 
 // False: the scene is to be built.
-bool SceneMaker::swap(const Order& order, ShownScene& shown) {
+bool SceneMaker::swap(const Order& order, MadeScene& made) {
     if (!read_.scene || !swapper_ || order.edits.hidden != built_with_.hidden) return false;
-    begin(shown);
-    Diagnostics& diagnostics = *shown.diagnostics;
+    begin(made);
+    Diagnostics& diagnostics = *made.diagnostics;
     Stopwatch watch;
     ImportedScene imported = copy_without_geometry(*read_.scene);
     EditedShaders shaders = shaders_;
@@ -312,22 +309,30 @@ bool SceneMaker::swap(const Order& order, ShownScene& shown) {
     preload_named_pictures(imported.description, *textures_);
     // Each text leaves its kernels in the cache.
     if (++swaps_ % kSwapsKept == 0) jit::clear_cache();
-    shown.exit_code = kExitOk;
-    shown.info = swapped_info(*info_, imported.description);
-    shown.swapped = {std::move(swap), diagnostics.files};
-    shown.build_ms = watch.ms();
+    {
+        std::lock_guard lock(mutex_);
+        counts_.kernels += swap.instances.size();
+    }
+    auto shown = std::make_shared<ShownScene>(*last_);
+    shown->scene = swapped_scene(*last_->scene, std::move(swap));
+    shown->texts = diagnostics.files;
+    made.shown = std::move(shown);
+    made.swapped = true;
+    made.exit_code = kExitOk;
+    made.info = swapped_info(*info_, imported.description);
+    made.build_ms = watch.ms();
     return true;
 }
 
-void SceneMaker::build(const Order& order, ShownScene& shown) {
+void SceneMaker::build(const Order& order, MadeScene& made) {
     if (!read_.scene) return;
-    begin(shown);
-    Diagnostics& diagnostics = *shown.diagnostics;
+    begin(made);
+    Diagnostics& diagnostics = *made.diagnostics;
     Stopwatch watch;
     SceneEdits edits = with_shared_texts(order.edits);
     bool mended = std::ranges::all_of(
         read_.broken, [&](const BrokenShader& broken) { return has_text(edits, broken.material); });
-    if (!mended || read_.broken.empty()) shown.findings = read_.broken_findings;
+    if (!mended || read_.broken.empty()) made.findings = read_.broken_findings;
     ImportedScene imported = *read_.scene;
     EditedShaders shaders;
     if (!apply_edits(imported, edits, read_.request, diagnostics, &shaders)) return;
@@ -337,42 +342,43 @@ void SceneMaker::build(const Order& order, ShownScene& shown) {
     BuildAgain again{{}, textures_, &overtaken_};
     BuiltScene built =
         build_imported(std::move(imported), diagnostics, order.finer ? &again : nullptr);
-    shown.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
+    made.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
     if (!built.scene) return;
-    shown.exit_code = kExitOk;
+    made.exit_code = kExitOk;
     dicing_.coarse = dicing_.coarse && built.redicer;
     // What is diced or exposed by itself depends on its shaders.
     swapper_.reset();
     if (!built.redicer && !read_.request.auto_exposure)
         swapper_.emplace(*built.scene, std::move(edited), read_.scene->description.values.size());
     shaders_ = std::move(shaders);
-    shown.scene = std::move(built.scene);
-    shown.pose = std::move(built.pose);
-    textures_ = shown.scene->textures;
-    preload_named_pictures(*shown.scene->description, *textures_);
-    shown.scene->textures->each_image(
-        [&](const StoredImage& image) { shown.files.push_back(image.file); });
-    shown.redicer = std::move(built.redicer);
-    shown.settings = frame_settings(read_.request, *shown.scene, *shown.pose, diagnostics);
-    auto info = scene_info(*shown.scene, {read_.scene->description, read_.texts}, read_.request,
-                           shown.rate);
+    const Scene& scene = *built.scene;
+    made.pose = std::move(built.pose);
+    textures_ = scene.textures;
+    preload_named_pictures(*scene.description, *textures_);
+    textures_->each_image([&](const StoredImage& image) { made.files.push_back(image.file); });
+    made.redicer = std::move(built.redicer);
+    const FrameSettings settings = frame_settings(read_.request, scene, *made.pose, diagnostics);
+    auto info = scene_info(scene, {read_.scene->description, read_.texts}, read_.request,
+                           read_.scene->rate);
     for (MaterialInfo& material : info->materials)
         for (const BrokenShader& broken : read_.broken)
             if (broken.material == material.id && !material.source)
                 material.source = std::make_shared<const ShaderSourceText>(broken.source);
     info->serial = serial_ + 1;
-    shown.info = std::move(info);
-    shown.build_ms = watch.ms();
-    if (!dicing_.coarse)
-        dicing_.is_fast = shown.scene->dice.triangles && shown.scene->dice.ms < kFastDiceMs;
-    if (order.finer) pose(shown);
+    made.info = std::move(info);
+    made.build_ms = watch.ms();
+    if (!dicing_.coarse) dicing_.is_fast = scene.dice.triangles && scene.dice.ms < kFastDiceMs;
+    made.shown = std::make_shared<ShownScene>(ShownScene{
+        read_.request, read_.scene->rate, std::move(built.scene), settings, diagnostics.files});
+    if (order.finer) pose(made);
 }
 
 // So that no frame waits for the trees of many triangles.
-void SceneMaker::pose(ShownScene& shown) const {
+void SceneMaker::pose(MadeScene& made) const {
     FrameStats stats;
-    pose_frame(*shown.scene, *shown.pose, shown.scene->options.start_time, shown.settings, stats,
-               *shown.diagnostics);
+    const Scene& scene = *made.shown->scene;
+    pose_frame(scene, *made.pose, scene.options.start_time, made.shown->settings, stats,
+               *made.diagnostics);
 }
 
 bool SceneMaker::begins_coarse(const Order& order) const {

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "runtime/base/stats.h"
+#include "runtime/build/instances/shader_swap.h"
 #include "runtime/play/shown_scene.h"
 
 namespace kinora {
@@ -40,11 +41,11 @@ class SceneMaker {
     // Reads the file, then builds. Of several orders the last one counts.
     void open(const SceneRequest& request, SceneEdits edits, bool replaces_camera);
     // Puts these edits on the scene read last: where they change surface shaders and parameters
-    // alone, by new kernels in the scene that stands; else it is built anew.
+    // alone, the scene made last gets other kernels; else it is built anew.
     void edit(SceneEdits edits);
 
     // What has become of the last order: a scene, or findings without one. Null: nothing new.
-    std::unique_ptr<ShownScene> take();
+    std::unique_ptr<MadeScene> take();
     MakerCounts counts() const;
     bool idle() const;     // no order, and nothing to take
     bool opening() const;  // another scene, which is not taken yet
@@ -62,24 +63,24 @@ class SceneMaker {
     };
     void run();
     void order(Order order);
-    std::unique_ptr<ShownScene> make(const Order& order);
-    void make(const Order& order, ShownScene& shown);
+    std::unique_ptr<MadeScene> make(const Order& order);
+    void make(const Order& order, MadeScene& made);
     bool goes_on(Opening::Step step);  // false: cancelled
-    bool read(const SceneRequest& request, ShownScene& shown);
-    bool swap(const Order& order, ShownScene& shown);
-    void build(const Order& order, ShownScene& shown);
-    void pose(ShownScene& shown) const;
+    bool read(const SceneRequest& request, MadeScene& made);
+    bool swap(const Order& order, MadeScene& made);
+    void build(const Order& order, MadeScene& made);
+    void pose(MadeScene& made) const;
     bool begins_coarse(const Order& order) const;
-    void begin(ShownScene& shown) const;
+    void begin(MadeScene& made) const;
     SceneEdits with_shared_texts(SceneEdits edits) const;
-    void put(std::unique_ptr<ShownScene> made);
+    void put(std::unique_ptr<MadeScene> made);
 
     std::function<void()> done_;
     const bool hurries_, shows_broken_;
     mutable std::mutex mutex_;
     std::condition_variable wanted_;
     std::optional<Order> order_;
-    std::deque<std::unique_ptr<ShownScene>> made_;  // a swap needs those before it
+    std::deque<std::unique_ptr<MadeScene>> made_;  // a swap needs those before it
     MakerCounts counts_;
     bool working_ = false, quit_ = false;
     bool replaces_camera_ = false;  // the order in work
@@ -100,8 +101,9 @@ class SceneMaker {
     };
     // Of the thread.
     AsRead read_;
-    std::optional<ShaderSwapper> swapper_;  // of the scene built last
-    SceneEdits built_with_;                 // it, and what it was swapped to since
+    std::optional<ShaderSwapper> swapper_;    // of the scene built last
+    std::shared_ptr<const ShownScene> last_;  // it, or what it was swapped to since
+    SceneEdits built_with_;                   // its edits
     EditedShaders shaders_;
     std::shared_ptr<TextureStore> textures_;  // of the scene built last
     std::shared_ptr<const SceneInfo> info_;

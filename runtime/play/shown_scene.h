@@ -1,40 +1,36 @@
-// runtime/play/shown_scene.h: a scene that is ready to be shown, and the edits it was built with.
+// runtime/play/shown_scene.h: a scene that is shown, and how it was made.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "runtime/build/instances/shader_swap.h"
 #include "runtime/play/scene_info.h"
 #include "runtime/play/session/places.h"
 #include "runtime/play/session/scene_edits.h"
 #include "runtime/play/shader_document.h"
-#include "runtime/play/view_order.h"
 #include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
 
-// Where only shaders and their parameters have changed: what brings the scene that is shown there.
-struct SwappedShaders {
-    ShaderSwap swap;
-    SourceFiles files;  // that findings of later pictures are in
-};
-
+// A scene that is shown: what its pictures are made of, and what is looked up in it, by any thread.
+// It never changes. An edit of its shaders makes another one, which shares the rest.
 struct ShownScene {
     SceneRequest request;
-    SceneEdits edits;
     FrameRate rate;
-    std::unique_ptr<Scene> scene;           // null: it could not be made; `findings` say why
-    std::unique_ptr<Pose> pose;             // of the scene, that its pictures are made in
-    std::optional<SwappedShaders> swapped;  // in place of a scene
-    std::unique_ptr<Redicer> redicer;       // null where nothing is diced
-    PosedScene closer;                      // with displaced meshes diced for a nearer view
-    std::optional<ViewOrder> closer_view;  // the picture that it was diced for; none: a smaller one
-    bool shows_closer = false;             // which made the last picture
-    FrameSettings settings;                // as kinora-render has them for the request
+    std::shared_ptr<const Scene> scene;
+    FrameSettings settings;  // as kinora-render has them for the request
+    SourceFiles texts;       // that locations in its shaders point into
+};
+
+// What has become of an order.
+struct MadeScene {
+    std::shared_ptr<const ShownScene> shown;  // null: it could not be made; `findings` say why
+    SceneEdits edits;                         // that it has
+    bool swapped = false;                     // the one before with other shaders
+    // Of a scene that is no swapped one:
+    std::unique_ptr<Pose> pose;        // that its pictures are made in
+    std::unique_ptr<Redicer> redicer;  // null where nothing is diced
     std::shared_ptr<const SceneInfo> info;
     std::unique_ptr<Diagnostics> diagnostics;  // findings to come
     std::vector<FindingText> findings;         // of reading and building
@@ -43,10 +39,6 @@ struct ShownScene {
     int exit_code = 0;                         // kinora-render's, where it could not be made
     bool replaces_camera = true;               // another scene, not the same one changed
     bool finer = false;                        // the one shown, with what is displaced diced finer
-
-    // What made the last picture.
-    const Scene& seen() const { return shows_closer ? *closer.scene : *scene; }
-    Pose& seen_pose() const { return shows_closer ? *closer.pose : *pose; }
 };
 
 FindingText finding_text(const Finding& finding, const SourceFiles& files);

@@ -37,14 +37,17 @@ SceneRequest small_request_of(const ThumbnailOrder& order) {
 }
 
 // Looked at as the picture does, and as near as the object's box allows.
-FreeCamera camera_for(ShownScene& shown, const ViewOrder& view, const std::string& node) {
-    auto [low, high] = box_of(*shown.scene, *shown.pose, find_node(*shown.scene, node));
-    if (!(low.x <= high.x)) low = shown.scene->low, high = shown.scene->high;
+FreeCamera camera_for(const ShownScene& shown, Pose& pose, const ViewOrder& view,
+                      const std::string& node) {
+    const Scene& scene = *shown.scene;
+    auto [low, high] = box_of(scene, pose, find_node(scene, node));
+    if (!(low.x <= high.x)) low = scene.low, high = scene.high;
     FreeCamera camera;
     if (view.camera)
         camera = *view.camera;
-    else if (std::optional<raytrace::Camera> seen = view_of(shown, view))
-        camera = free_camera_of(*seen, shown.scene->origin, 1);
+    else if (std::optional<raytrace::Camera> seen =
+                 view_of(scene, pose, view, time_of(shown, view)))
+        camera = free_camera_of(*seen, scene.origin, 1);
     frame_box(camera, low, high, double(kWidth) / kHeight);
     return camera;
 }
@@ -149,35 +152,32 @@ void Thumbnails::make(const ThumbnailOrder& order) {
         ShownScene shown;
         shown.request = small;
         shown.rate = imported->rate;
-        shown.diagnostics = std::make_unique<Diagnostics>();
-        shown.diagnostics->files = read.files.fork();
+        Diagnostics diagnostics;
+        diagnostics.files = read.files.fork();
         ImportedScene dressed = *imported;
         const SceneEdits edits = edits_with_text(
             order.edits, {order.material, name + ".sl", std::string(library_shader_text(name))});
-        if (!apply_edits(dressed, edits, small, *shown.diagnostics)) continue;
-        BuiltScene built = build_imported(std::move(dressed), *shown.diagnostics);
+        if (!apply_edits(dressed, edits, small, diagnostics)) continue;
+        BuiltScene built = build_imported(std::move(dressed), diagnostics);
+        if (!built.scene) continue;
         shown.scene = std::move(built.scene);
-        shown.pose = std::move(built.pose);
-        if (!shown.scene) continue;
-        shown.settings =
-            frame_settings(small, *shown.scene, *shown.pose, *shown.diagnostics, &stop_);
+        const Scene& scene = *shown.scene;
+        Pose& pose = *built.pose;
+        shown.settings = frame_settings(small, scene, pose, diagnostics, &stop_);
         ViewOrder view = order.view;
         view.width = kWidth;
         view.height = kHeight;
         view.only_light = kNone;
         const double time = time_of(shown, view);
         FrameStats stats;
-        if (!pose_frame(*shown.scene, *shown.pose, time, shown.settings, stats, *shown.diagnostics))
-            continue;
-        view.camera = camera_for(shown, view, order.node);
+        if (!pose_frame(scene, pose, time, shown.settings, stats, diagnostics)) continue;
+        view.camera = camera_for(shown, pose, view, order.node);
         view.follow.reset();
         PlacedCamera placed;
-        FrameSettings settings = refined_settings(shown, view, placed);
+        FrameSettings settings = refined_settings(shown, scene, pose, view, placed);
         settings.stop = &stop_;
         raytrace::Film film;
-        if (!render_frame(*shown.scene, *shown.pose, time, settings, film, stats,
-                          *shown.diagnostics))
-            continue;
+        if (!render_frame(scene, pose, time, settings, film, stats, diagnostics)) continue;
         auto made = std::make_shared<Thumbnail>();
         made->shader = name;
         made->width = film.width;

@@ -12,7 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/play/render_loop.h"
+#include "runtime/play/shown_scene.h"
+#include "runtime/play/view_order.h"
 
 namespace kinora {
 

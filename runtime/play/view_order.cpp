@@ -24,38 +24,32 @@ bool ViewOrder::same_picture(const ViewOrder& o) const {
            filter == o.filter;
 }
 
-std::optional<raytrace::Camera> view_of(ShownScene& shown, const ViewOrder& order) {
-    const Scene& scene = *shown.scene;
-    Pose& pose = *shown.pose;
-    evaluate(scene, pose, seconds_of(shown.rate, order.frame));
+std::optional<raytrace::Camera> view_of(const Scene& scene, Pose& pose, const ViewOrder& order,
+                                        double seconds) {
+    evaluate(scene, pose, seconds);
     update_transforms(scene, pose);
     if (order.camera_index < scene.cameras.size()) pose.camera = order.camera_index;
     if (raytrace::is_error(set_view(scene, pose, order.width, order.height))) return std::nullopt;
     return pose.view;
 }
 
-std::optional<dvec3> place_of(ShownScene& shown, const std::string& node, double frame) {
-    return place_at(*shown.scene, *shown.pose, node, seconds_of(shown.rate, frame));
-}
-
 double time_of(const ShownScene& shown, const ViewOrder& order) {
     return seconds_of(shown.rate, order.frame);
 }
 
-FrameSettings refined_settings(ShownScene& shown, const ViewOrder& order, PlacedCamera& placed) {
+FrameSettings refined_settings(const ShownScene& shown, const Scene& scene, Pose& pose,
+                               const ViewOrder& order, PlacedCamera& placed) {
     FrameSettings settings = shown.settings;
     settings.width = order.width;
     settings.height = order.height;
     settings.gain *= std::exp2(order.exposure);
-    if (order.only_light < shown.scene->lights.size())
-        settings.insight.only_light = order.only_light;
+    if (order.only_light < scene.lights.size()) settings.insight.only_light = order.only_light;
     settings.integrator.seed = frame_seed(shown.request, std::llround(order.frame));
     if (order.camera) {
-        placed = placed_camera(*shown.scene, *shown.pose, *order.camera, order.follow,
-                               time_of(shown, order));
+        placed = placed_camera(scene, pose, *order.camera, order.follow, time_of(shown, order));
         settings.camera = &placed;
-    } else if (order.camera_index < shown.scene->cameras.size()) {
-        shown.pose->camera = order.camera_index;
+    } else if (order.camera_index < scene.cameras.size()) {
+        pose.camera = order.camera_index;
     }
     return settings;
 }

@@ -35,15 +35,16 @@ struct ViewOrder {
     bool same_picture(const ViewOrder& other) const;
 };
 
-// The view of an order, without a picture of it. For questions. Nothing where there is none.
-std::optional<raytrace::Camera> view_of(ShownScene& scene, const ViewOrder& order);
+// The scene's camera that an order names, as it stands after so many seconds, without a picture of
+// it. Nothing where there is no view.
+std::optional<raytrace::Camera> view_of(const Scene& scene, Pose& pose, const ViewOrder& order,
+                                        double seconds);
 
-// What the refined picture of an order is made with, and its time in seconds. `placed` keeps the
-// camera that is moved by hand.
-FrameSettings refined_settings(ShownScene& scene, const ViewOrder& order, PlacedCamera& placed);
-double time_of(const ShownScene& scene, const ViewOrder& order);
-
-// Where a node stands at a frame; nothing where there is none of that name. Likewise.
-std::optional<dvec3> place_of(ShownScene& scene, const std::string& node, double frame);
+// What the refined picture of an order is made with in a pose of `scene`, which gets its camera,
+// and its time in seconds. `scene` is the one shown, or it diced for a nearer view. `placed` keeps
+// the camera that is moved by hand.
+FrameSettings refined_settings(const ShownScene& shown, const Scene& scene, Pose& pose,
+                               const ViewOrder& order, PlacedCamera& placed);
+double time_of(const ShownScene& shown, const ViewOrder& order);
 
 }  // namespace kinora

@@ -274,8 +274,6 @@ ShaderSwapper::Outcome ShaderSwapper::swap(const SceneDescription& edited, Diagn
             Outcome outcome = change_instance(k, edited, draft, diagnostics);
             if (outcome != Outcome::Swapped) return outcome;
         }
-        ShaderSwap::Shaders& shaders = draft.swap.materials.emplace_back(m);
-        for (const ShaderUse& use : is.surfaces) shaders.surfaces.push_back(use.shader);
     }
     for (Known& known : draft.changed) {
         const uint32_t index = known.instance->index;
@@ -287,26 +285,38 @@ ShaderSwapper::Outcome ShaderSwapper::swap(const SceneDescription& edited, Diagn
     return Outcome::Swapped;
 }
 
-void apply_swap(Scene& scene, Pose& pose, ShaderSwap swap) {
-    SceneDescription& description = *scene.description;
+std::unique_ptr<Scene> swapped_scene(const Scene& scene, ShaderSwap swap) {
+    const SceneParts& parts = scene;
+    auto made = std::make_unique<Scene>(parts);
+    const Pose& from = scene.start;
+    Pose& start = made->start;
+    start.camera = from.camera;
+    start.time = from.time;
+    start.shutter = from.shutter;
+    start.values = from.values;
+    start.changed = from.changed;
+    start.nodes = from.nodes;
+    start.view = from.view;
     for (const ShaderSwap::Numbers& numbers : swap.numbers) {
         const size_t end = numbers.offset + numbers.values.size();
-        if (description.values.size() < end) {
-            description.values.resize(end);
-            description.animated.resize(end, false);
-            scene.start.values.resize(end);
-            pose.values.resize(end);
-        }
-        std::ranges::copy(numbers.values, description.values.begin() + numbers.offset);
-        std::ranges::copy(numbers.values, scene.start.values.begin() + numbers.offset);
-        std::ranges::copy(numbers.values, pose.values.begin() + numbers.offset);
+        if (start.values.size() < end) start.values.resize(end);
+        std::ranges::copy(numbers.values, start.values.begin() + numbers.offset);
     }
-    for (ShaderSwap::Shaders& shaders : swap.materials)
-        for (size_t l = 0; l < shaders.surfaces.size(); ++l)
-            description.materials[shaders.material].surfaces[l].shader = shaders.surfaces[l];
-    if (swap.instances.empty()) return;
     for (auto& instance : swap.instances)
-        scene.shader_instances[instance->index] = std::move(instance);
+        made->shader_instances[instance->index] = std::move(instance);
+    return made;
+}
+
+bool same_besides_swaps(const Scene& a, const Scene& b) {
+    return a.nodes.data() == b.nodes.data();
+}
+
+void take_swaps(const Scene& before, const Scene& now, Pose& pose) {
+    const std::vector<double>&was = before.start.values, &is = now.start.values;
+    pose.values.resize(is.size());
+    // No channel writes a value that an edit gives.
+    for (size_t k = 0; k < is.size(); ++k)
+        if (k >= was.size() || is[k] != was[k]) pose.values[k] = is[k];
     pose.shading.reset();
 }
 

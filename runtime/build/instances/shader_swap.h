@@ -1,5 +1,5 @@
-// runtime/build/instances/shader_swap.h: surface shaders and parameters of a scene that stands are
-// changed: only the kernels that this concerns are compiled.
+// runtime/build/instances/shader_swap.h: a scene with other surface shaders and parameters, which
+// shares the rest with the one before: only the kernels that this concerns are compiled.
 #pragma once
 
 #include <memory>
@@ -16,23 +16,24 @@ namespace kinora {
 // What a change of materials asks of the scene.
 struct ShaderSwap {
     struct Numbers {
-        uint32_t offset;  // into Scene::values, which become longer where need be
+        uint32_t offset;  // into the scene's values, which become longer where need be
         std::vector<double> values;
     };
-    struct Shaders {
-        uint32_t material;  // of the description: what its surfaces are by now
-        std::vector<std::shared_ptr<const rsl::Shader>> surfaces;
-    };
     std::vector<std::unique_ptr<ShaderInstance>> instances;  // compiled, by ShaderInstance::index
-    std::vector<Shaders> materials;
     std::vector<Numbers> numbers;
 };
 
-// Between two frames, and in the order in which the swaps were made.
-void apply_swap(Scene& scene, Pose& pose, ShaderSwap swap);
+// The scene with what the swap changes, which is for it or for what the swaps before made of it.
+// What is not changed is shared, so both may be rendered at once. The description stays that of the
+// first scene.
+std::unique_ptr<Scene> swapped_scene(const Scene& scene, ShaderSwap swap);
 
-// Makes swaps. After its constructor it does not look at the scene, which may be rendered
-// meanwhile.
+// Whether swaps have made one of the other, or both of the same scene.
+bool same_besides_swaps(const Scene& a, const Scene& b);
+// A pose of `before` becomes one of `now`, of which the same is true.
+void take_swaps(const Scene& before, const Scene& now, Pose& pose);
+
+// Makes swaps. After its constructor it does not look at the scene.
 class ShaderSwapper {
   public:
     // A scene that has just been built. `description`: what it was built from; of its values the

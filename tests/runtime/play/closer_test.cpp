@@ -77,8 +77,8 @@ TEST(Closer, MeshesAreDicedAgainWhileTheCameraMoves) {
 }
 
 // Scenes in the order in which they are made, until the maker has no more to do.
-std::vector<std::unique_ptr<ShownScene>> all_made(News& news, SceneMaker& maker) {
-    std::vector<std::unique_ptr<ShownScene>> all;
+std::vector<std::unique_ptr<MadeScene>> all_made(News& news, SceneMaker& maker) {
+    std::vector<std::unique_ptr<MadeScene>> all;
     EXPECT_TRUE(news.await([&] {
         while (auto made = maker.take()) all.push_back(std::move(made));
         return maker.idle();
@@ -100,17 +100,17 @@ TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
     };
     auto whole = open(slow), parts = open(hurried);
     ASSERT_EQ(whole.size(), 1u);
-    const DiceStats& asked = whole[0]->scene->dice;
+    const DiceStats& asked = whole[0]->shown->scene->dice;
     EXPECT_EQ(asked.pixels, 1);
     // The first may have been replaced before this thread looked.
     ASSERT_TRUE(parts.size() == 1 || parts.size() == 2);
     EXPECT_TRUE(parts[0]->replaces_camera);
     if (parts.size() == 2) {
-        EXPECT_LT(parts[0]->scene->dice.triangles * 4, asked.triangles);
+        EXPECT_LT(parts[0]->shown->scene->dice.triangles * 4, asked.triangles);
         EXPECT_FALSE(parts[1]->replaces_camera);
     }
-    EXPECT_EQ(parts.back()->scene->dice.triangles, asked.triangles);
-    EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
+    EXPECT_EQ(parts.back()->shown->scene->dice.triangles, asked.triangles);
+    EXPECT_EQ(parts.back()->shown->scene->dice.pixels, asked.pixels);
     EXPECT_EQ(hurried.counts().scenes, 2u);
 
     // An edit need not wait for the finer scene, and comes to be diced as finely.
@@ -121,7 +121,7 @@ TEST(Coarse, ASceneIsSeenBeforeItIsDicedWhole) {
     parts = all_made(news, hurried);
     ASSERT_FALSE(parts.empty());
     EXPECT_EQ(parts.back()->edits, edits);
-    EXPECT_EQ(parts.back()->scene->dice.pixels, asked.pixels);
+    EXPECT_EQ(parts.back()->shown->scene->dice.pixels, asked.pixels);
     std::filesystem::remove(file);
 }
 
@@ -137,10 +137,10 @@ TEST(Coarse, AFailedOpeningLeavesTheFinerSceneItsEdits) {
     maker.open(small_request(file + ".missing"), {}, true);
     auto made = all_made(news, maker);
     std::filesystem::remove(file);
-    std::erase_if(made, [](const auto& one) { return !one->scene; });
+    std::erase_if(made, [](const auto& one) { return !one->shown; });
     ASSERT_FALSE(made.empty());
     EXPECT_EQ(made.back()->edits, edits);
-    EXPECT_EQ(made.back()->scene->dice.pixels, 1);
+    EXPECT_EQ(made.back()->shown->scene->dice.pixels, 1);
 }
 
 // A text that cannot be compiled is told, and the scene becomes finer without it.
@@ -155,14 +155,14 @@ TEST(Coarse, ABrokenTextDoesNotKeepASceneCoarse) {
     maker.edit(edits);
     auto made = all_made(news, maker);
     std::filesystem::remove(file);
-    const auto broken = std::ranges::find_if(made, [](const auto& one) { return !one->scene; });
+    const auto broken = std::ranges::find_if(made, [](const auto& one) { return !one->shown; });
     ASSERT_NE(broken, made.end());
     EXPECT_FALSE((*broken)->findings.empty());
     EXPECT_EQ((*broken)->exit_code, kExitShader);
-    std::erase_if(made, [](const auto& one) { return !one->scene; });
+    std::erase_if(made, [](const auto& one) { return !one->shown; });
     ASSERT_FALSE(made.empty());
     EXPECT_EQ(made.back()->edits, SceneEdits{});
-    EXPECT_EQ(made.back()->scene->dice.pixels, 1);
+    EXPECT_EQ(made.back()->shown->scene->dice.pixels, 1);
 }
 
 }  // namespace

@@ -96,15 +96,15 @@ TEST(Swap, ReadsThePictureThatATextNames) {
     News news;
     SceneMaker maker(news.bell(), true, false);
     const auto taken = [&] {
-        std::unique_ptr<ShownScene> made;
+        std::unique_ptr<MadeScene> made;
         EXPECT_TRUE(news.await([&] { return (made = maker.take()) != nullptr; }));
         return made;
     };
     const std::string file = scene_path("scenes/walker.dae");
     maker.open(small_request(file), {}, true);
     const auto shown = taken();
-    ASSERT_TRUE(shown->scene);
-    const int before = shown->scene->textures->images();
+    ASSERT_TRUE(shown->shown);
+    const int before = shown->shown->scene->textures->images();
     SceneEdits edits;
     edits.texts.push_back({"wall-material", file,
                            "surface plaster(float Ka = 1; float Kd = 0.9; float unevenness = 0.12;"
@@ -115,7 +115,7 @@ TEST(Swap, ReadsThePictureThatATextNames) {
     maker.edit(edits);
     const auto edited = taken();
     ASSERT_TRUE(edited->swapped) << (edited->findings.empty() ? "" : edited->findings[0].printed);
-    EXPECT_EQ(shown->scene->textures->images(), before + 1);
+    EXPECT_EQ(shown->shown->scene->textures->images(), before + 1);
 }
 
 // Texts by a fixed generator: whole shaders, small changes, broken ones.
