@@ -427,7 +427,7 @@ void PlayerCore::order_thumbnails() {
     });
     if (object == info->nodes.end()) object = std::ranges::find_if(info->nodes, wears);
     if (object == info->nodes.end()) return thumbnails.forget();
-    thumbnails.order({request, edits, selection.material, object->path, view_order()});
+    thumbnails.order({shown, request.scene, selection.material, object->path, view_order()});
 }
 
 ViewOrder PlayerCore::seen_order() const {

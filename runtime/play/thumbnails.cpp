@@ -1,4 +1,4 @@
-// runtime/play/thumbnails.cpp: the scene read once, then built and rendered for each shader.
+// runtime/play/thumbnails.cpp: the scene that is shown, dressed in each shader.
 #include "runtime/play/thumbnails.h"
 
 #include <algorithm>
@@ -6,10 +6,13 @@
 #include <utility>
 
 #include "runtime/base/parallel.h"
+#include "runtime/base/tasks/thread_priority.h"
+#include "runtime/build/instances/dressed_scene.h"
 #include "runtime/description/shader_library.h"
 #include "runtime/frame/frame.h"
 #include "runtime/images/image_io.h"
-#include "runtime/play/session/session.h"
+#include "runtime/play/session/places.h"
+#include "runtime/scene/camera.h"
 
 namespace kinora {
 
@@ -23,31 +26,12 @@ bool is_for_importers(std::string_view name) {
     return std::ranges::any_of(kTheirs, [&](std::string_view p) { return name.starts_with(p); });
 }
 
-// No more than the object, its lights and few samples.
-SceneRequest small_request_of(const ThumbnailOrder& order) {
-    SceneRequest small = order.request;
-    small.width = kWidth;
-    small.height = kHeight;
-    small.auto_exposure = false;
-    small.quality.samples_per_pixel = kSamples;
-    small.findings = {};
-    const std::string id = order.node.substr(order.node.rfind('/') + 1);
-    if (!id.empty()) small.only = {id};
-    return small;
-}
-
 // Looked at as the picture does, and as near as the object's box allows.
-FreeCamera camera_for(const ShownScene& shown, Pose& pose, const ViewOrder& view,
+FreeCamera camera_for(const Scene& scene, const Pose& pose, const ViewOrder& view,
                       const std::string& node) {
-    const Scene& scene = *shown.scene;
     auto [low, high] = box_of(scene, pose, find_node(scene, node));
     if (!(low.x <= high.x)) low = scene.low, high = scene.high;
-    FreeCamera camera;
-    if (view.camera)
-        camera = *view.camera;
-    else if (std::optional<raytrace::Camera> seen =
-                 view_of(scene, pose, view, time_of(shown, view)))
-        camera = free_camera_of(*seen, scene.origin, 1);
+    FreeCamera camera = view.camera ? *view.camera : free_camera_of(pose.view, scene.origin, 1);
     frame_box(camera, low, high, double(kWidth) / kHeight);
     return camera;
 }
@@ -55,7 +39,7 @@ FreeCamera camera_for(const ShownScene& shown, Pose& pose, const ViewOrder& view
 }  // namespace
 
 bool ThumbnailOrder::same(const ThumbnailOrder& o) const {
-    return request.scene == o.request.scene && material == o.material && node == o.node;
+    return scene == o.scene && material == o.material && node == o.node;
 }
 
 std::vector<std::string> shaders_to_choose() {
@@ -96,6 +80,7 @@ void Thumbnails::order(const ThumbnailOrder& order) {
         std::lock_guard lock(mutex_);
         if (known_ && known_->same(order)) return;
         known_ = order_ = order;
+        known_->shown.reset();  // a scene is kept for its pictures alone
         stop_ = 1;
     }
     wanted_.notify_one();
@@ -121,6 +106,7 @@ bool Thumbnails::idle() const {
 
 void Thumbnails::run() {
     SerialScope serial;  // the frames of the scene shown go first
+    lower_thread_priority();
     std::unique_lock lock(mutex_);
     while (true) {
         wanted_.wait(lock, [&] { return quit_ || order_; });
@@ -143,46 +129,10 @@ void Thumbnails::run() {
 }
 
 void Thumbnails::make(const ThumbnailOrder& order) {
-    const SceneRequest small = small_request_of(order);
-    Diagnostics read;
-    std::optional<ImportedScene> imported = import_requested(small, read);
-    if (!imported) return;
-    for (const std::string& name : shaders_to_choose()) {
+    for (const std::string& shader : shaders_to_choose()) {
         if (stop_) return;
-        ShownScene shown;
-        shown.request = small;
-        shown.rate = imported->rate;
-        Diagnostics diagnostics;
-        diagnostics.files = read.files.fork();
-        ImportedScene dressed = *imported;
-        const SceneEdits edits = edits_with_text(
-            order.edits, {order.material, name + ".sl", std::string(library_shader_text(name))});
-        if (!apply_edits(dressed, edits, small, diagnostics)) continue;
-        BuiltScene built = build_imported(std::move(dressed), diagnostics);
-        if (!built.scene) continue;
-        shown.scene = std::move(built.scene);
-        const Scene& scene = *shown.scene;
-        Pose& pose = *built.pose;
-        shown.settings = frame_settings(small, scene, pose, diagnostics, &stop_);
-        ViewOrder view = order.view;
-        view.width = kWidth;
-        view.height = kHeight;
-        view.only_light = kNone;
-        const double time = time_of(shown, view);
-        FrameStats stats;
-        if (!pose_frame(scene, pose, time, shown.settings, stats, diagnostics)) continue;
-        view.camera = camera_for(shown, pose, view, order.node);
-        view.follow.reset();
-        PlacedCamera placed;
-        FrameSettings settings = refined_settings(shown, scene, pose, view, placed);
-        settings.stop = &stop_;
-        raytrace::Film film;
-        if (!render_frame(scene, pose, time, settings, film, stats, diagnostics)) continue;
         auto made = std::make_shared<Thumbnail>();
-        made->shader = name;
-        made->width = film.width;
-        made->height = film.height;
-        made->rgba = to_8_bit(film, small.color).rgba;
+        if (!make(order, shader, *made)) continue;
         {
             std::lock_guard lock(mutex_);
             if (stop_) return;
@@ -190,6 +140,41 @@ void Thumbnails::make(const ThumbnailOrder& order) {
         }
         wake_();
     }
+}
+
+// False: there is no picture of it.
+bool Thumbnails::make(const ThumbnailOrder& order, const std::string& shader, Thumbnail& to) const {
+    const ShownScene& shown = *order.shown;
+    const auto& materials = shown.scene->description->materials;
+    const auto material = std::ranges::find(materials, order.material, &MaterialDefinition::id);
+    if (material == materials.end()) return false;
+    Diagnostics ignored;  // what is shown reports them
+    const Dress dress{uint32_t(material - materials.begin()), library_shader(shader),
+                      find_node(*shown.scene, order.node)};
+    const std::unique_ptr<Scene> scene = dressed_scene(*shown.scene, dress, ignored);
+    if (!scene) return false;
+    Pose pose(*scene);
+    ViewOrder view = order.view;
+    view.width = kWidth;
+    view.height = kHeight;
+    view.only_light = kNone;
+    PlacedCamera placed;
+    FrameStats stats;
+    FrameSettings settings = refined_settings(shown, *scene, pose, view, placed);
+    if (!pose_frame(*scene, pose, time_of(shown, view), settings, stats, ignored)) return false;
+    view.camera = camera_for(*scene, pose, view, order.node);
+    view.follow.reset();
+    settings = refined_settings(shown, *scene, pose, view, placed);
+    settings.integrator.samples_per_pixel = kSamples;
+    settings.stop = &stop_;
+    raytrace::Film film;
+    if (!render_frame(*scene, pose, time_of(shown, view), settings, film, stats, ignored))
+        return false;
+    to.shader = shader;
+    to.width = film.width;
+    to.height = film.height;
+    to.rgba = to_8_bit(film, shown.request.color).rgba;
+    return true;
 }
 
 }  // namespace kinora

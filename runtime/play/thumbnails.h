@@ -26,11 +26,11 @@ struct Thumbnail {
 // What they show. They are made anew for another scene, material or object, not while these are
 // edited or the camera moves.
 struct ThumbnailOrder {
-    SceneRequest request;
-    SceneEdits edits;
-    std::string material;
-    std::string node;  // path of the object, which stands there alone
-    ViewOrder view;    // the way that it is looked at, and when
+    std::shared_ptr<const ShownScene> shown;
+    std::string scene;     // its file
+    std::string material;  // of the scene's description, by id
+    std::string node;      // path of the object, which stands there alone
+    ViewOrder view;        // the way that it is looked at, and when
 
     bool same(const ThumbnailOrder& other) const;
 };
@@ -56,6 +56,7 @@ class Thumbnails {
   private:
     void run();
     void make(const ThumbnailOrder& order);
+    bool make(const ThumbnailOrder& order, const std::string& shader, Thumbnail& to) const;
 
     std::function<void()> wake_;
     mutable std::mutex mutex_;

@@ -285,7 +285,7 @@ ShaderSwapper::Outcome ShaderSwapper::swap(const SceneDescription& edited, Diagn
     return Outcome::Swapped;
 }
 
-std::unique_ptr<Scene> swapped_scene(const Scene& scene, ShaderSwap swap) {
+std::unique_ptr<Scene> scene_beside(const Scene& scene) {
     const SceneParts& parts = scene;
     auto made = std::make_unique<Scene>(parts);
     const Pose& from = scene.start;
@@ -297,10 +297,16 @@ std::unique_ptr<Scene> swapped_scene(const Scene& scene, ShaderSwap swap) {
     start.changed = from.changed;
     start.nodes = from.nodes;
     start.view = from.view;
+    return made;
+}
+
+std::unique_ptr<Scene> swapped_scene(const Scene& scene, ShaderSwap swap) {
+    std::unique_ptr<Scene> made = scene_beside(scene);
+    std::vector<double>& values = made->start.values;
     for (const ShaderSwap::Numbers& numbers : swap.numbers) {
         const size_t end = numbers.offset + numbers.values.size();
-        if (start.values.size() < end) start.values.resize(end);
-        std::ranges::copy(numbers.values, start.values.begin() + numbers.offset);
+        if (values.size() < end) values.resize(end);
+        std::ranges::copy(numbers.values, values.begin() + numbers.offset);
     }
     for (auto& instance : swap.instances)
         made->shader_instances[instance->index] = std::move(instance);

@@ -23,6 +23,9 @@ struct ShaderSwap {
     std::vector<Numbers> numbers;
 };
 
+// Another scene that shares all with this one.
+std::unique_ptr<Scene> scene_beside(const Scene& scene);
+
 // The scene with what the swap changes, which is for it or for what the swaps before made of it.
 // What is not changed is shared, so both may be rendered at once. The description stays that of the
 // first scene.
