@@ -17,7 +17,7 @@ namespace {
 
 using rsl::Service;
 
-thread_local PointRecorder* t_recorder = nullptr;
+thread_local PointRecorder* t_points = nullptr;
 
 jit::ServiceFn service_of(Service service) {
     return find_service(rsl::service_name(service));
@@ -26,7 +26,7 @@ jit::ServiceFn service_of(Service service) {
 template <size_t k>
 void stand_in(const jit::ServiceCall& call) {
     service_of(rsl::kServices[k])(call);
-    if (t_recorder) t_recorder->note(rsl::kServices[k], call);
+    if (t_points) t_points->note(rsl::kServices[k], call);
 }
 
 template <size_t... k>
@@ -87,8 +87,8 @@ void watch_launches() {
     // Never taken away: other threads run kernels meanwhile.
     struct Launches final : KernelProbe {
         void run(const jit::KernelCall& call) override {
-            if (t_recorder)
-                t_recorder->run(call);
+            if (t_points)
+                t_points->run(call);
             else
                 call.run();
         }
@@ -100,11 +100,11 @@ void watch_launches() {
 
 PointRecorder::PointRecorder(std::function<void(RecordedPoint&)> found) : found_(std::move(found)) {
     watch_launches();
-    t_recorder = this;
+    t_points = this;
 }
 
 PointRecorder::~PointRecorder() {
-    t_recorder = nullptr;
+    t_points = nullptr;
 }
 
 void PointRecorder::run(const jit::KernelCall& call) {

@@ -26,17 +26,17 @@ bool has_place(dvec3 v) {
     return std::isfinite(v.x + v.y + v.z);
 }
 
-thread_local RayRecorder* t_recorder = nullptr;
+thread_local RayRecorder* t_rays = nullptr;
 
 // Sees the packets of all threads while one of them records. It is there for good, since a thread
 // may be about to call it when the last recorder ends.
 class Packets final : public raytrace::PacketRecorder {
   public:
     void closest(const raytrace::RayPacket16& rays) override {
-        if (t_recorder) t_recorder->record(rays, false);
+        if (t_rays) t_rays->record(rays, false);
     }
     void any(const raytrace::RayPacket16& rays) override {
-        if (t_recorder) t_recorder->record(rays, true);
+        if (t_rays) t_rays->record(rays, true);
     }
     void count(int recorders) {
         std::lock_guard lock(mutex_);
@@ -52,14 +52,14 @@ class Packets final : public raytrace::PacketRecorder {
 }  // namespace
 
 RayRecorder::RayRecorder() {
-    t_recorder = this;
+    t_rays = this;
     g_packets.count(1);
 }
 
 void RayRecorder::stop() {
     if (!std::exchange(records_, false)) return;
     g_packets.count(-1);
-    t_recorder = nullptr;
+    t_rays = nullptr;
 }
 
 void RayRecorder::record(const raytrace::RayPacket16& rays, bool any) {
