@@ -190,8 +190,10 @@ TEST(Inspector, AClickWaitsForNoFrame) {
     ASSERT_TRUE(player.wait_idle(kLong));
     const uint64_t before = player.frames_rendered();
     ASSERT_TRUE(player
-                    .run("set_text", {"surface s(float Ka = 1; float Kd = 1) { float k = 0; while "
-                                      "(1) k += u; Ci = k; }"})
+                    .run("set_text", {"surface s(float Ka = 1; float Kd = 1) { float k = 0;"
+                                      " uniform float i, j, h; for (i = 0; i < 1000; i += 1)"
+                                      " for (j = 0; j < 1000; j += 1)"
+                                      " for (h = 0; h < 1000; h += 1) k += u; Ci = k; Oi = 1; }"})
                     .done);
     while (player.frames_rendered() == before) {
         player.advance(0.01);
