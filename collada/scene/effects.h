@@ -190,7 +190,7 @@ struct Material {
     std::optional<bool> shadows;  // and its <shadows>
     std::string volume_target;    // <extra> RSL "interior", "exterior", both in order; "" if silent
     bool invisible = false;       // profile_COMMON's formula gives opacity 0 everywhere, always
-    bool reversed = false;        // as most of its file are invisible: opacity is 1 less the formula's
+    bool reversed = false;  // as most of its file are invisible: opacity is 1 less the formula's
     Location where;
 };
 
