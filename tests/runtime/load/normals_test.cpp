@@ -13,7 +13,7 @@
 namespace kinora {
 namespace {
 
-const double kHalf = std::sqrt(0.5);
+const double kRootHalf = std::sqrt(0.5);
 
 MeshDefinition mesh_of(std::vector<dvec3> positions, std::vector<uint32_t> triangles) {
     MeshDefinition mesh;
@@ -36,7 +36,7 @@ dvec3 normal_at(const MeshDefinition& mesh, size_t corner) {
     return dvec3(double(v[0]), double(v[1]), double(v[2]));
 }
 
-void expect_near(dvec3 got, dvec3 want) {
+void expect_normal(dvec3 got, dvec3 want) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], want[k], 1e-6) << "component " << k;
 }
 
@@ -51,11 +51,11 @@ TEST(Smooth, CreasesWhereFacesTurnByMoreThanTheAngle) {
         smoothed(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, -1}},
                          {0, 1, 2, 1, 0, 4, 0, 2, 3}),
                  60);
-    expect_near(normal_at(mesh, 6), {1, 0, 0});
+    expect_normal(normal_at(mesh, 6), {1, 0, 0});
     dvec3 joined = normal_at(mesh, 0);
     EXPECT_GT(joined.z, 0.9);
     EXPECT_LT(joined.y, -0.1);
-    expect_near(normal_at(mesh, 4), joined);
+    expect_normal(normal_at(mesh, 4), joined);
 }
 
 TEST(Smooth, AFlatMeshNeedsNoneUnlessTheyAreToBeWritten) {
@@ -64,23 +64,24 @@ TEST(Smooth, AFlatMeshNeedsNoneUnlessTheyAreToBeWritten) {
     description.meshes.push_back(cube_corner());
     flat_normals(description);
     const MeshDefinition& mesh = description.meshes[0];
-    expect_near(normal_at(mesh, 0), {0, 0, -1});
-    expect_near(normal_at(mesh, 3), {0, -1, 0});
-    expect_near(normal_at(mesh, 6), {-1, 0, 0});
+    expect_normal(normal_at(mesh, 0), {0, 0, -1});
+    expect_normal(normal_at(mesh, 3), {0, -1, 0});
+    expect_normal(normal_at(mesh, 6), {-1, 0, 0});
 }
 
 TEST(Smooth, JoinsFacesByTheirAngleAtTheVertex) {
     MeshDefinition mesh = smoothed(cube_corner(), 91);
     const double s = -1 / std::sqrt(3.0);
-    for (size_t corner : {0u, 3u, 6u}) expect_near(normal_at(mesh, corner), {s, s, s});
+    for (size_t corner : {0u, 3u, 6u}) expect_normal(normal_at(mesh, corner), {s, s, s});
     // At (1, 0, 0) two faces meet, with 45 degrees each.
-    for (size_t corner : {2u, 4u}) expect_near(normal_at(mesh, corner), {0, -kHalf, -kHalf});
+    for (size_t corner : {2u, 4u})
+        expect_normal(normal_at(mesh, corner), {0, -kRootHalf, -kRootHalf});
     // A square's two triangles count as one right angle: 90 against 45 + 45.
     MeshDefinition step =
         smoothed(mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}},
                          {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2}),
                  100);
-    expect_near(normal_at(step, 1), {-kHalf, 0, kHalf});
+    expect_normal(normal_at(step, 1), {-kRootHalf, 0, kRootHalf});
 }
 
 TEST(Smooth, EqualPositionsAreOne) {
@@ -92,7 +93,7 @@ TEST(Smooth, EqualPositionsAreOne) {
     }
     soup.positions = apart;
     soup = smoothed(soup, 91);
-    for (size_t c = 0; c < 9; ++c) expect_near(normal_at(soup, c), normal_at(whole, c));
+    for (size_t c = 0; c < 9; ++c) expect_normal(normal_at(soup, c), normal_at(whole, c));
 }
 
 TEST(Smooth, LeavesGivenNormalsAlone) {
@@ -100,7 +101,7 @@ TEST(Smooth, LeavesGivenNormalsAlone) {
     mesh.groups[0].attributes.push_back({"NORMAL", 0, 3, {1, 0, 0}, std::vector<uint32_t>(9, 0)});
     mesh = smoothed(mesh, 91);
     EXPECT_EQ(mesh.groups[0].attributes.size(), 1u);
-    expect_near(normal_at(mesh, 4), {1, 0, 0});
+    expect_normal(normal_at(mesh, 4), {1, 0, 0});
 }
 
 TEST(Smooth, MorphTargetsGetThoseOfTheirShape) {
@@ -119,10 +120,10 @@ TEST(Smooth, MorphTargetsGetThoseOfTheirShape) {
     EXPECT_EQ(made, 1u);  // nobody else uses it
     // The three faces have right angles at the corner still.
     const double s = -1 / std::sqrt(3.0);
-    expect_near(normal_at(description.meshes[made], 0), {s, s, s});
+    expect_normal(normal_at(description.meshes[made], 0), {s, s, s});
     // At (1, 0, 0): 45 degrees of the face below, atan 2 of the one in front.
     double below = std::atan(1.0), front = std::atan(2.0);
-    expect_near(normal_at(description.meshes[made], 2), glm::normalize(dvec3(0, -front, -below)));
+    expect_normal(normal_at(description.meshes[made], 2), glm::normalize(dvec3(0, -front, -below)));
 }
 
 // A sheet bent by 20 degrees, whose other edge a target folds: that is a crease from the start.
@@ -144,9 +145,9 @@ TEST(Smooth, ATargetsCreasesAreCreasesOfTheBase) {
     smooth_normals(description, 40);
     const MeshDefinition& target = description.meshes[description.morphs[0].targets[0]];
     // At the fold the middle keeps its normal, and the left face turns by 45 degrees.
-    for (size_t corner : {0u, 2u}) expect_near(normal_at(target, corner), {0, 0, 0});
+    for (size_t corner : {0u, 2u}) expect_normal(normal_at(target, corner), {0, 0, 0});
     for (size_t corner : {9u, 10u, 11u})
-        expect_near(normal_at(target, corner), {kHalf, 0, kHalf - 1});
+        expect_normal(normal_at(target, corner), {kRootHalf, 0, kRootHalf - 1});
 }
 
 // ---- targets that part the base's corners
@@ -171,7 +172,7 @@ TEST(TargetNormals, PartTheCornersOfTheBase) {
     SceneDescription description = square_and_target({0, 0, 0, 1, 1, 1});
     part_normals_by_targets(description);
     const MeshDefinition& mesh = description.meshes[0];
-    for (size_t corner = 0; corner < 6; ++corner) expect_near(normal_at(mesh, corner), {0, 0, 1});
+    for (size_t corner = 0; corner < 6; ++corner) expect_normal(normal_at(mesh, corner), {0, 0, 1});
     // Each vertex of the diagonal has two entries, the others one: those of two flat triangles.
     const Mesh built = build_mesh(mesh, true);
     EXPECT_EQ(built.normals.size(), 6u);
