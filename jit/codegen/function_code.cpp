@@ -59,12 +59,12 @@ bool FunctionCode::is_zero(Value v) const {
     return (op == Op::ConstF || op == Op::ConstI || op == Op::ConstM) && inst(v).imm == 0;
 }
 
-// What else lies in the first and last row may be cleared, too.
+// What else lies in the first and last row may be cleared, too. A frame beyond reach is never run.
 void FrameLayout::clear(int32_t at, size_t size) {
     if (size == 0) return;
+    const size_t rows = (static_cast<size_t>(at) + size + kRow - 1) / kRow;
     const int32_t begin = at / kRow * kRow;
-    const int32_t end =
-        static_cast<int32_t>((static_cast<size_t>(at) + size + kRow - 1) / kRow) * kRow;
+    const auto end = static_cast<int32_t>(std::min<size_t>(rows * kRow, kMostFrameBytes));
     if (!cleared.empty() && begin <= cleared.back().end)
         cleared.back().end = std::max(cleared.back().end, end);
     else

@@ -27,7 +27,7 @@ static bool contains(std::string_view text, std::string_view part) {
 // Embree's strings grow in code of the C++ library that the linker may take from this program, so
 // the nearest callers are looked at, not the first alone.
 static bool is_embrees() {
-    constexpr int kOwnFrames = 2, kNear = 6;
+    constexpr int kOwnFrames = 2, kNear = 12;
     void* frames[kOwnFrames + kNear];
     int count = backtrace(frames, kOwnFrames + kNear);
     for (int i = kOwnFrames; i < count; ++i)
