@@ -12,6 +12,9 @@ import sys
 from functools import lru_cache
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from gauge import report  # noqa: E402
+
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
 FOLDERS = ("runtime", "collada", "rsl", "jit", "anim", "skin", "raytrace", "tests")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
@@ -128,13 +131,7 @@ def main():
         faults += faults_of(path, read(path), table, headers, beside[Path(path).parent])
     cases = [(f"{count} files reach the headers of the {len(table)} names they use", faults),
              ("the checker finds planted faults", self_check(table))]
-    for name, found in cases:
-        print(f"{'FAILED' if found else 'ok    '} {name}")
-        for fault in found:
-            print(f"    {fault}")
-    failed = sum(bool(found) for _, found in cases)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    return 1 if failed else 0
+    return report(cases)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,9 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from gauge import report  # noqa: E402
+
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
 FOLDERS = ("jit", "rsl", "anim", "skin", "raytrace", "runtime")
 NOT_OBEYING = ("runtime/trade/", "runtime/programs/tradeoff/", "runtime/explain/")
@@ -59,13 +62,7 @@ def main():
     cases = [(f"each of {len(members)} knobs is read", unread(members, sources())),
              ("the table has knobs", [] if members else ["no row was found"]),
              ("the checker finds planted faults", self_check())]
-    for name, faults in cases:
-        print(f"{'FAILED' if faults else 'ok    '} {name}")
-        for fault in faults:
-            print(f"    {fault}")
-    failed = sum(bool(faults) for _, faults in cases)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    return 1 if failed else 0
+    return report(cases)
 
 
 if __name__ == "__main__":

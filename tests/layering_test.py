@@ -12,6 +12,9 @@ import re
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from gauge import report  # noqa: E402
+
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
 SOURCE_FOLDERS = ("runtime", "collada", "rsl", "jit", "anim", "skin", "raytrace", "tests")
 LEAVES = ("jit", "anim", "skin", "collada", "raytrace")
@@ -246,14 +249,7 @@ def main():
     rules = folder_rules(targets)
     cases = list(test_cases(rules))
     cases.append(("the checker finds planted faults", self_check(rules)))
-    failed = 0
-    for name, faults in cases:
-        print(f"{'FAILED' if faults else 'ok    '} {name}")
-        for fault in faults:
-            print(f"    {fault}")
-        failed += bool(faults)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    return 1 if failed else 0
+    return report(cases)
 
 
 if __name__ == "__main__":

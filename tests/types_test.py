@@ -12,6 +12,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from gauge import report  # noqa: E402
+
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
 FOLDERS = ("jit", "rsl", "collada", "anim", "skin", "raytrace", "runtime", "tests")
 KINDS = ("class", "struct", "union", "enum", "typedef")
@@ -78,13 +81,7 @@ def main():
     cases = [(f"{len(types)} types have names of their own", repeated(types)),
              ("types are found", [] if len(types) > 500 else ["too few: has the form of ctags changed?"]),
              ("the checker finds planted faults", self_check())]
-    for name, faults in cases:
-        print(f"{'FAILED' if faults else 'ok    '} {name}")
-        for fault in faults:
-            print(f"    {fault}")
-    failed = sum(bool(faults) for _, faults in cases)
-    print(f"{len(cases) - failed} passed, {failed} failed")
-    return 1 if failed else 0
+    return report(cases)
 
 
 if __name__ == "__main__":

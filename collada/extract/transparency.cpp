@@ -102,7 +102,7 @@ std::optional<double> partial_opacity(const SceneData& scene, const Material& ma
                                                                   : std::nullopt;
 }
 
-// Where most of a file that write a transparency are invisible, its exporter counts the other way.
+// An exporter counts the other way if most of a file's transparent materials come out invisible.
 void reverse_the_others(Extraction& x, const std::vector<bool>& fixed) {
     struct OfDocument {
         uint32_t invisible = 0, partial = 0;

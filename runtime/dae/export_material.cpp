@@ -408,24 +408,30 @@ double soft_exponent(const LightNumbers& n) {
     return inner < 0.99 * outer ? falloff_exponent(inner, outer) : 0;
 }
 
+struct LightRow {
+    const char *shader, *element;
+    bool falls_off, cone;
+};
+constexpr LightRow kLightRows[] = {{"collada_ambient", "ambient", false, false},
+                                   {"collada_directional", "directional", false, false},
+                                   {"collada_point", "point", true, false},
+                                   {"collada_spot", "spot", true, true},
+                                   {"gltf_directional", "directional", false, false},
+                                   {"gltf_point", "point", true, false},
+                                   {"gltf_spot", "spot", true, true}};
+
+// Null for lights in RSL.
+const LightRow* light_row(const ShaderUse& shader) {
+    for (const LightRow& row : kLightRows)
+        if (is_library(shader, row.shader)) return &row;
+    return nullptr;
+}
+
 }  // namespace
 
 std::string ColladaExporter::light(uint32_t index) {
-    struct Row {
-        const char *shader, *element;
-        bool falls_off, cone;
-    };
-    static constexpr Row kRows[] = {{"collada_ambient", "ambient", false, false},
-                                    {"collada_directional", "directional", false, false},
-                                    {"collada_point", "point", true, false},
-                                    {"collada_spot", "spot", true, true},
-                                    {"gltf_directional", "directional", false, false},
-                                    {"gltf_point", "point", true, false},
-                                    {"gltf_spot", "spot", true, true}};
     const LightDefinition& l = description_.lights[index];
-    const Row* row = nullptr;
-    for (const Row& r : kRows)
-        if (is_library(l.shader, r.shader)) row = &r;
+    const LightRow* row = light_row(l.shader);
     const std::string& own = light_ids_[index];
     bool theirs = row && std::string_view(row->shader).starts_with("gltf");
     LightNumbers now{l.shader, description_.values};

@@ -140,7 +140,7 @@ class GltfToCommon {
         if (dvec3 glow = color("emissive", 0); glow != dvec3(0.0))
             light("emission", "emissive", glow);
 
-        // gltf_pbr.sl, F0 and alpha2. Where a map says what is reflected, most is as plastic is.
+        // F0 and alpha2 of gltf_pbr.sl. Most of what has a map of reflections is plastic.
         dvec3 dielectric = glossy ? dvec3(0.04)
                                   : number("specular", 1) * glm::min(number("dielectric_F0", 0.04) *
                                                                          color("specular_color", 1),
