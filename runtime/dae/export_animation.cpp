@@ -97,7 +97,7 @@ void AnimationWriter::name(ValueSlot slot, const std::string& target, const char
     }
 }
 
-// Calls f(animation, clip) for those of the clips, and for the scene's (kNone).
+// Calls f(animation, clip) for each clip's animation, and for the scene's own, whose clip is kNone.
 template <class F>
 void AnimationWriter::for_each_animation(F&& f) const {
     for (uint32_t k = 0; k < description_.clips.size(); ++k)

@@ -282,7 +282,7 @@ std::string ColladaExporter::common(const MaterialDefinition& definition, const 
     for (const ModelRow& row : kModels)
         if (use && is_library(*use, row.shader)) model = &row;
     std::string params, slots;
-    std::vector<ValueSlot> sources;  // of what is seen
+    std::vector<ValueSlot> sources;  // numbers that the surface is made of
     if (model)
         for (const ParamSource& p : definition.surfaces.back().params)
             if (p.value.present()) sources.push_back(p.value);

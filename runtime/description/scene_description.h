@@ -246,7 +246,7 @@ struct SceneDescription {
     std::vector<MorphDefinition> morphs;
     std::vector<MaterialDefinition> materials;
     std::vector<LightDefinition> lights;
-    std::vector<LightDefinition> default_lights;     // instead of those of runtime/build/defaults.h
+    std::vector<LightDefinition> default_lights;     // they replace runtime/build/defaults.h
     std::vector<std::string> hidden_default_lights;  // names of those that are not added (--hide)
     std::vector<CameraDefinition> cameras;
     PictureShaders picture;

@@ -14,7 +14,7 @@
 
 namespace {
 
-// ThreadSanitizer does not see how oneTBB orders a loop: what is before it, its parts, what is
+// ThreadSanitizer does not see how oneTBB orders the code before a loop, its parts and the code
 // after.
 #if defined(__SANITIZE_THREAD__)
 struct LoopOrder {

@@ -15,7 +15,7 @@ class Diagnostics;
 struct Dress {
     uint32_t material = kNone;                  // into SceneDescription::materials
     std::shared_ptr<const rsl::Shader> shader;  // with its own parameters
-    uint32_t alone = kNone;                     // no ray meets what is not on or below this node
+    uint32_t alone = kNone;  // rays meet shapes of this node and of nodes below alone
 };
 
 // Shares with the scene all but these surfaces' instances and rows. Lights do without messages that
