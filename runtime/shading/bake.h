@@ -1,5 +1,4 @@
-// runtime/shading/bake.h: point files as shaders read them, the services texture3d and photons, and
-// as bake3d writes them.
+// runtime/shading/bake.h: point files as bake3d writes them.
 #pragma once
 
 #include <set>
@@ -12,15 +11,6 @@
 #include "runtime/shading/grid.h"
 
 namespace kinora {
-
-// Values near P: the mean of up to 8 of the file's points with normals to P's side, weighed by
-// (1 - distance / that of the farthest)^2; exactly a point's own where P is that point.
-void look_up_points(const Scene& scene, const Pose& pose, const jit::ServiceCall& call);
-
-// PhotonKind::Map and Caustic: the power of the nearest photons by the area of the disc that holds
-// them (H. W. Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, eq. 7.6), channel
-// "power". Subsurface: as texture3d of "_ssdiffusion", else of "_radiance_t".
-void look_up_photons(const Scene& scene, const Pose& pose, const jit::ServiceCall& call);
 
 // A point of bake3d: P, N, radius, then its channels' numbers.
 struct BakedPoint {

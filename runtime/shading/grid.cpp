@@ -15,6 +15,7 @@
 #include "runtime/description/affine_map.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
+#include "runtime/shading/corner.h"
 #include "runtime/shading/kernels/point_source.h"
 
 namespace kinora {
@@ -42,47 +43,6 @@ mat3 normal_matrix(const dmat4& m, bool mirrored) {
 }
 
 namespace {
-
-// A hit's triangle with everything interpolation needs.
-struct Corner {
-    const Surface& surface;
-    const Pose& pose;
-    const Mesh& mesh;
-    const MeshGroup& group;
-    uint32_t primitive;
-    float u, v;  // barycentrics of corners 1 and 2
-
-    uint32_t position(int k) const { return group.triangles[3 * primitive + uint32_t(k)]; }
-    vec3 normal(int k) const {
-        return vec3(pose.shapes[surface.shape]
-                        .shown_normals[group.normal_corners[3 * primitive + uint32_t(k)]]);
-    }
-    const float* attribute(const VertexAttribute& a, int k) const {
-        return &values_of(a, pose)[size_t(a.corners[3 * primitive + uint32_t(k)]) * a.stride];
-    }
-};
-
-// A number of a varying parameter at the three corners.
-void corner_values(const Corner& c, const VaryingParam& param, const VertexAttribute* attribute,
-                   uint32_t component, float x[3]) {
-    for (int corner = 0; corner < 3; ++corner) {
-        x[corner] = 0;
-        if (attribute) {
-            uint32_t from = std::min(param.component + component, attribute->stride - 1);
-            x[corner] = c.attribute(*attribute, corner)[from];
-        } else if (param.semantic == "Pref") {
-            x[corner] = c.mesh.positions[c.position(corner)][int(component)] +
-                        float(c.mesh.anchor[int(component)]);
-        }
-    }
-}
-
-// Between the corners; a text is the nearest corner's, bit for bit.
-float between(const Corner& c, const VaryingParam& param, const float x[3]) {
-    if (!param.text) return x[0] + c.u * (x[1] - x[0]) + c.v * (x[2] - x[0]);
-    float w = 1 - c.u - c.v;
-    return w >= c.u && w >= c.v ? x[0] : c.u >= c.v ? x[1] : x[2];
-}
 
 // Whether it keeps angles, so that mixed normals need not be made unit first.
 bool keeps_angles(const mat3& m) {
@@ -522,19 +482,6 @@ void gather(Grid& grid) {
     grid.memory.counters.columns += grid.count() * uint64_t(wanted);
     HitSource source(grid, grid.frame.camera_from_accel, grid.frame.eye);
     fill_columns(source, {grid.count(), grid.columns});
-}
-
-float varying_at(const Scene& scene, const Pose& pose, const raytrace::HitBatch& hits, uint32_t hit,
-                 size_t which, uint32_t component) {
-    const Surface& surface = scene.surfaces[hits.instance[hit]];
-    const Shape& shape = scene.shapes[surface.shape];
-    const Mesh& mesh = scene.meshes[shape.mesh];
-    Corner c{surface,     pose,       mesh, mesh.groups[surface.group], hits.primitive[hit],
-             hits.u[hit], hits.v[hit]};
-    const VaryingParam& param = scene.shader_instances[surface.look]->varying[which];
-    float x[3];
-    corner_values(c, param, surface.varying[which], component, x);
-    return between(c, param, x);
 }
 
 }  // namespace kinora

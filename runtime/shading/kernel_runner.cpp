@@ -10,7 +10,7 @@
 #include "runtime/description/findings.h"
 #include "runtime/lights/kernels.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/scene_host.h"
+#include "runtime/shading/grid_host.h"
 
 namespace kinora {
 

@@ -14,8 +14,8 @@
 #include "runtime/description/findings.h"
 #include "runtime/lights/cone_samples.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/grid_host.h"
 #include "runtime/shading/kernels/columns.h"
-#include "runtime/shading/scene_host.h"
 
 namespace kinora {
 

@@ -155,7 +155,7 @@ namespace {
 constexpr float kLeastRays = 16;  // that any point may shoot
 
 float ray_budget(const Grid& grid, size_t point) {
-    const Grid& seen = grid.lit ? *grid.lit : grid;  // a light spends what the lit points have
+    const PicturePoints& seen = grid.of_surface();  // a light spends what the lit points have
     const raytrace::HitBatch& hits = seen.hits;
     uint32_t hit = seen.points[point + (grid.lit ? grid.lit_first : 0)];
     float limit = float(grid.frame.quality.ray_limit);

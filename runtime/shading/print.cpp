@@ -1,4 +1,4 @@
-// runtime/shading/print.cpp: printf of shaders.
+// runtime/shading/print.cpp: printf of shaders at the points of pictures.
 #include "runtime/shading/print.h"
 
 #include <algorithm>
@@ -8,55 +8,11 @@
 #include <string_view>
 #include <tuple>
 
-#include "rsl/model/renderer_services.h"
-#include "rsl/model/string_functions.h"
 #include "runtime/description/findings.h"
 #include "runtime/scene/scene.h"
+#include "runtime/shading/printed_lines.h"
 
 namespace kinora {
-
-std::string print_text(const jit::ServiceCall& call, int lane) {
-    float values[rsl::kMostFormatValues];
-    for (int k = 0; k < rsl::kMostFormatValues; ++k)
-        values[k] = call.args[(1 + k) * jit::kMaxLanes + lane];
-    return rsl::format_text(rsl::interned(jit::bits_of(call.args[lane])), values);
-}
-
-// ---- in an order that is known ------------------------------------------------------------------
-
-void PrintedLines::add(std::string text) {
-    ++asked_;
-    if (full()) return;
-    left_out_ = bytes_ + text.size() > kMostPrintBytes;
-    if (left_out_) return;
-    bytes_ += text.size();
-    lines_.push_back(std::move(text));
-}
-
-void PrintedLines::add(const jit::ServiceCall& call, int lane) {
-    if (full())
-        ++asked_;
-    else
-        add(print_text(call, lane));
-}
-
-void PrintedLines::add(PrintedLines&& others) {
-    uint64_t beyond = others.asked_ - others.lines_.size();
-    for (std::string& line : others.lines_) add(std::move(line));
-    asked_ += beyond;
-    left_out_ = left_out_ || beyond > 0;
-}
-
-void PrintedLines::show(std::FILE* to) const {
-    for (const std::string& line : lines_) std::fputs(line.c_str(), to);
-}
-
-void PrintedLines::report(const std::string& shader, Diagnostics& diagnostics) const {
-    if (asked_ > lines_.size())
-        diagnostics.report(Code::PRINT_LIMIT, Location{}, shader, asked_, lines_.size());
-}
-
-// ---- at the points of pictures ------------------------------------------------------------------
 
 bool Prints::Print::operator<(const Print& o) const {
     return std::tie(pixel_y, pixel_x, sample, order) <

@@ -38,9 +38,9 @@ void to_current(rsl::BaseType type, const dmat4& current_from_space, const doubl
 
 // The row of the surface that the point lies on, for a light the point it lights; kNone: none.
 uint32_t surface_row(const Asker& asker) {
-    if (!asker.grid) return kNone;
-    const Grid& grid = asker.grid->lit ? *asker.grid->lit : *asker.grid;
-    return grid.hits.instance[grid.points[asker.point + asker.grid->lit_first]];
+    if (!asker.seen) return kNone;
+    const PicturePoints& seen = asker.seen->of_surface();
+    return seen.hits.instance[seen.points[asker.point + asker.seen->lit_first]];
 }
 
 // The same from the look's "shader" space: a surface's is that of what wears it.
@@ -67,22 +67,22 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
         const VaryingParam& v = look.varying[which];
         if (v.layer != layer || v.name != query.name) continue;
         *varying = true;
-        if (!asker.grid) return false;
-        const Grid& grid = asker.grid->lit ? *asker.grid->lit : *asker.grid;
-        size_t point = asker.point + asker.grid->lit_first;
-        uint32_t hit = grid.points[point], row = grid.hits.instance[hit];
+        if (!asker.seen) return false;
+        const PicturePoints& seen = asker.seen->of_surface();
+        size_t point = asker.point + asker.seen->lit_first;
+        uint32_t hit = seen.points[point], row = seen.hits.instance[hit];
         if (row == kNone ||
             asker.scene.shader_instances[asker.scene.surfaces[row].look].get() != &look)
             return false;
         uint32_t count = uint32_t(query.components());
         uint32_t first = query.element > 0 ? uint32_t(query.element) * count : 0;
         for (uint32_t c = 0; c < count; ++c) {
-            bool read = grid.look == &look && v.column != kNoColumn &&
-                        grid.columns.size() > size_t(v.column + first + c);
-            const float* column = read ? grid.columns[v.column + first + c] : nullptr;
+            bool read = seen.look == &look && v.column != kNoColumn &&
+                        seen.columns.size() > size_t(v.column + first + c);
+            const float* column = read ? seen.columns[v.column + first + c] : nullptr;
             answer[c] = column
                             ? column[point]
-                            : varying_at(asker.scene, asker.pose, grid.hits, hit, which, first + c);
+                            : varying_at(asker.scene, asker.pose, seen.hits, hit, which, first + c);
         }
         rsl::BaseType type = parameter_type(look.layers[layer], v.name);
         if (rsl::is_spatial(type) && !v.of_displacement()) {  // the mesh's: in the object's space
@@ -151,10 +151,10 @@ const ShaderInstance* look_at(const Scene& scene, uint32_t index) {
 // The volume on the side that the ray comes from, or on the other: outside is where Ng points.
 const ShaderInstance* volume_of(const Asker& asker, bool opposite) {
     if (!asker.on_surface()) return nullptr;
-    const Grid& grid = *asker.grid;
+    const PicturePoints& seen = *asker.seen;
     uint32_t hit = asker.hit();
     float along = 0;
-    for (size_t k = 0; k < 3; ++k) along += grid.hits.dir[k][hit] * grid.hits.Ng[k][hit];
+    for (size_t k = 0; k < 3; ++k) along += seen.hits.dir[k][hit] * seen.hits.Ng[k][hit];
     bool from_outside = along < 0;
     const Surface& surface = asker.surface();
     return look_at(asker.scene, from_outside != opposite ? surface.exterior : surface.interior);
@@ -173,8 +173,8 @@ struct Asked {
 
 Asked whom(QueryKind kind, const Asker& asker) {
     const ShaderInstance* surface = &asker.look;
-    if (asker.grid && asker.grid->surface)
-        surface = asker.grid->surface;
+    if (asker.seen && asker.seen->surface)
+        surface = asker.seen->surface;
     else if (surface->kind != ShaderInstanceKind::Surface)
         surface = asker.on_surface() ? look_at(asker.scene, asker.surface().look) : nullptr;
     switch (kind) {
@@ -228,7 +228,7 @@ bool answer_query_at(QueryKind kind, const Asker& asker, const Query& query, Que
 }  // namespace
 
 const Surface& Asker::surface() const {
-    return scene.surfaces[grid->hits.instance[hit()]];
+    return scene.surfaces[seen->hits.instance[hit()]];
 }
 
 bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,
@@ -281,10 +281,10 @@ bool ask_the_same(const jit::ServiceCall& call, int first) {
 }  // namespace
 
 void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
-                  const Grid* grid, const jit::ServiceCall& call) {
+                  const PicturePoints* seen, const jit::ServiceCall& call) {
     auto answer_at = [&](int lane, QueryAnswer& answer) {
-        Asker asker{scene, pose, look, grid, 0, integer(call, 5, lane)};
-        if (grid) asker.point = std::min(size_t(call.first + lane), grid->count() - 1);
+        Asker asker{scene, pose, look, seen, 0, integer(call, 5, lane)};
+        if (seen) asker.point = std::min(size_t(call.first + lane), seen->count() - 1);
         return answer_query_at(QueryKind(integer(call, 0, lane)), asker, query_of(call, lane),
                                answer);
     };

@@ -6,8 +6,10 @@
 #include <span>
 #include <string_view>
 
+#include "jit/ir/kernel_call.h"
 #include "rsl/model/renderer_services.h"
-#include "runtime/shading/grid.h"
+#include "runtime/shading/picture_points.h"
+#include "runtime/shading/shader_instance.h"
 
 namespace kinora {
 
@@ -18,12 +20,12 @@ struct Asker {
     const Scene& scene;
     const Pose& pose;
     const ShaderInstance& look;
-    const Grid* grid = nullptr;
+    const PicturePoints* seen = nullptr;
     size_t point = 0;   // of the grid
     int32_t light = 0;  // QueryKind::Light: among Scene::lights
 
-    uint32_t hit() const { return grid->points[point]; }
-    bool on_surface() const { return grid && grid->hits.instance[hit()] != kNone; }
+    uint32_t hit() const { return seen->points[point]; }
+    bool on_surface() const { return seen && seen->hits.instance[hit()] != kNone; }
     const Surface& surface() const;  // that the grid's point lies on
 };
 
@@ -42,9 +44,9 @@ struct Query {
 using QueryAnswer = std::array<float, 16>;
 
 // The service; lanes without an answer get known = 0.
-// `grid`: of the points that ask; null at frame rate.
+// `seen`: the points that ask; null at frame rate.
 void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
-                  const Grid* grid, const jit::ServiceCall& call);
+                  const PicturePoints* seen, const jit::ServiceCall& call);
 
 // Rows of attribute(), option(), rendererinfo() and rayinfo(): facts by their customary names; a
 // prefix "Ri:" is the same without it. False where the name or the type is not known.

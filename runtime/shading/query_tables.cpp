@@ -56,7 +56,7 @@ const ShaderInstance& look_of(const Asker& asker) {
 
 // The material or the mesh may say so.
 bool one_sided(const Asker& asker) {
-    return asker.scene.rows[asker.grid->hits.instance[asker.hit()]].hide_backfaces;
+    return asker.scene.rows[asker.seen->hits.instance[asker.hit()]].hide_backfaces;
 }
 Fact sides(const Asker& asker) {
     return one_sided(asker) ? 1.0 : 2.0;
@@ -74,7 +74,7 @@ Fact mesh_name(const Asker& asker) {
     return std::string_view(scene.description->meshes[scene.meshes[mesh].definition].id);
 }
 Fact row_number(const Asker& asker) {
-    return double(asker.grid->hits.instance[asker.hit()]);
+    return double(asker.seen->hits.instance[asker.hit()]);
 }
 Fact ray_depth(const Asker& asker) {
     return double(asker.scene.options.quality.ray_depth);
@@ -199,43 +199,43 @@ constexpr Row kRenderer[] = {
 // ---- rayinfo ------------------------------------------------------------------------------------
 
 Fact depth(const Asker& asker) {
-    return double(asker.grid->depth);
+    return double(asker.seen->depth);
 }
 Fact kind(const Asker& asker) {
     constexpr std::string_view kNames[] = {"camera", "specular", "diffuse", "transmission"};
-    return kNames[size_t(asker.grid->ray.kind)];
+    return kNames[size_t(asker.seen->ray.kind)];
 }
 // Nothing is shaded to be kept: neither a cache nor a grid.
 Fact intent(const Asker&) {
     return std::string_view("shaderay");
 }
 Fact label(const Asker& asker) {
-    return std::string_view(rsl::interned(asker.grid->ray.label));
+    return std::string_view(rsl::interned(asker.seen->ray.label));
 }
 vec3 of_hit(const Asker& asker, const float* const columns[3]) {
     uint32_t hit = asker.hit();
     return {columns[0][hit], columns[1][hit], columns[2][hit]};
 }
 Fact origin(const Asker& asker) {
-    const ShadingFrame& frame = asker.grid->frame;
-    return frame.camera_from_accel * (of_hit(asker, asker.grid->hits.org) - frame.eye);
+    const EyeSpace& space = asker.seen->space;
+    return space.camera_from_accel * (of_hit(asker, asker.seen->hits.org) - space.eye);
 }
 Fact direction(const Asker& asker) {
-    return asker.grid->frame.camera_from_accel *
-           glm::normalize(of_hit(asker, asker.grid->hits.dir));
+    return asker.seen->space.camera_from_accel *
+           glm::normalize(of_hit(asker, asker.seen->hits.dir));
 }
 Fact length(const Asker& asker) {
-    vec3 way = of_hit(asker, asker.grid->hits.P) - of_hit(asker, asker.grid->hits.org);
+    vec3 way = of_hit(asker, asker.seen->hits.P) - of_hit(asker, asker.seen->hits.org);
     return double(glm::length(way));
 }
 Fact specular_depth(const Asker& asker) {
-    return double(asker.grid->ray.specular);
+    return double(asker.seen->ray.specular);
 }
 Fact ray_diffuse_depth(const Asker& asker) {
-    return double(asker.grid->ray.diffuse);
+    return double(asker.seen->ray.diffuse);
 }
 Fact shadow_depth(const Asker& asker) {
-    return asker.grid->ray.kind == RayKind::Transmission ? 1.0 : 0.0;
+    return asker.seen->ray.kind == RayKind::Transmission ? 1.0 : 0.0;
 }
 
 constexpr Row kRay[] = {
@@ -324,7 +324,7 @@ bool answer_fact(rsl::QueryKind kind_asked, const Asker& asker, const Query& que
                  QueryAnswer& answer) {
     bool of_point =
         kind_asked == rsl::QueryKind::Attribute || kind_asked == rsl::QueryKind::RayInfo;
-    if (of_point && !asker.grid) return false;
+    if (of_point && !asker.seen) return false;
     if (kind_asked == rsl::QueryKind::Attribute && !asker.on_surface()) return false;
     std::string_view name = plain_name(query);
     for (const Row& row : rows_of(kind_asked))

@@ -9,7 +9,6 @@
 #include "runtime/base/check.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/spaces.h"
-#include "runtime/shading/grid.h"
 #include "runtime/shading/scene_host.h"
 
 namespace kinora {

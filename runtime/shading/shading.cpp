@@ -9,12 +9,12 @@
 #include "runtime/base/parallel.h"
 #include "runtime/scene/scene.h"
 #include "runtime/shading/bake.h"
+#include "runtime/shading/grid_host.h"
 #include "runtime/shading/hit_shader.h"
 #include "runtime/shading/imager.h"
 #include "runtime/shading/nested_rays.h"
 #include "runtime/shading/print.h"
 #include "runtime/shading/ray_services.h"
-#include "runtime/shading/scene_host.h"
 #include "runtime/shading/transmission.h"
 
 namespace kinora {

@@ -8,6 +8,7 @@
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
 #include "runtime/shading/insight.h"
+#include "runtime/shading/picture_points.h"
 #include "runtime/shading/shader_instance.h"
 
 namespace kinora {
@@ -35,13 +36,13 @@ struct ShadingCounters {
 };
 
 // What is the same for all that is shaded in a frame. Set by Shading before the first hit.
-struct ShadingFrame {
+struct ShadingFrame : EyeSpace {
+    ShadingFrame(const Scene& s, const Quality& q, const Pose& p) : scene(s), quality(q), pose(p) {}
+
     const Scene& scene;
     const Quality& quality;  // the scene's
     const Pose& pose;
     std::vector<InstanceFrame> instances = {};  // of Scene::shader_instances
-    mat3 camera_from_accel{1.0f};
-    vec3 eye{0.0f};  // accel space
     uint32_t seed = 0;
     int max_layers = 256;    // surfaces that a ray sees through
     bool footprints = true;  // some shader reads those of hits

@@ -96,7 +96,7 @@ class Wedges : public PointSource {
                                             kColI, kColdNdu, kColdNdv, kColdIdu, kColdIdv};
 
     void take(uint16_t c) {
-        if (!columns_[c]) columns_[c] = arena_.allocate_span<float>(padded(count_)).data();
+        if (!columns_[c]) columns_[c] = arena_.allocate_span<float>(jit::padded(count_)).data();
     }
     void set(size_t first, size_t i, vec3 v) {
         if (!columns_[first]) return;

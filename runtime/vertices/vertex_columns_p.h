@@ -6,7 +6,6 @@
 #include <span>
 
 #include "runtime/base/arena.h"
-#include "runtime/shading/grid.h"
 #include "runtime/shading/shader_instance.h"
 #include "runtime/vertices/diced_mesh.h"
 

@@ -17,7 +17,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/shading/print.h"
+#include "runtime/shading/printed_lines.h"
 #include "runtime/shading/shader_instance.h"
 #include "runtime/vertices/diced_mesh.h"
 

@@ -6,7 +6,6 @@
 #include "runtime/build/instances/compile_instance.h"
 #include "runtime/build/instances/output_planes.h"
 #include "runtime/description/displacements.h"
-#include "runtime/shading/shading.h"
 
 namespace kinora {
 

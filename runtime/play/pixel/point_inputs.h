@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rsl/reference/reference.h"
-#include "runtime/shading/scene_host.h"
+#include "runtime/shading/grid_host.h"
 
 namespace kinora {
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "runtime/play/pixel/recorded_calls.h"
-#include "runtime/shading/scene_host.h"
+#include "runtime/shading/grid_host.h"
 
 namespace kinora {
 

@@ -7,7 +7,7 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/programs/shade/grid.h"
 #include "runtime/shading/kernels/kernel_host.h"
-#include "runtime/shading/print.h"
+#include "runtime/shading/printed_lines.h"
 
 namespace kinora {
 

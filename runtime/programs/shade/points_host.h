@@ -6,7 +6,7 @@
 #include "runtime/images/texture_store.h"
 #include "runtime/programs/shade/point_set.h"
 #include "runtime/shading/kernels/kernel_host.h"
-#include "runtime/shading/print.h"
+#include "runtime/shading/printed_lines.h"
 
 namespace kinora {
 
