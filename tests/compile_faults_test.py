@@ -21,7 +21,7 @@ const Builtin kRows[] = {{"saturate", "SIGNATURES", nullptr, {}, kPure, 0, "x li
 SERVICES = re.findall(r"^SERVICE\((\w+),", (ROOT / "rsl/model/services.def").read_text(), re.M)
 OF_WORLD = ("texture", "environment", "shadow", "textureinfo", "transform")  # WorldHost answers
 HOST = """
-#include "runtime/shading/kernels/kernel_host.h"
+#include "runtime/scene/kernels/kernel_host.h"
 namespace kinora {
 struct Host : WorldHost {
     Host();

@@ -112,7 +112,7 @@ def sources():
 
 def self_check(table):
     """Finds a call, a type and a constant without their headers, and lets what is right through."""
-    some = "runtime/vertices/weld.h"
+    some = "runtime/scene/vertices/weld.h"
     planted = ("void f() { weld_of_ = weld(positions); }\n", "void f() { const Mesh mesh; }\n")
     beside = {some, "runtime/scene/scene.h"}
     missed = [text for text in planted if not faults_of("x.cpp", text, table, set(), beside)]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tests/knobs_test.py: some code obeys each knob of runtime/trade/knobs.def.
+"""tests/knobs_test.py: some code obeys each knob of runtime/scene/quality/knobs.def.
 
 Settings are held by value in objects named `quality`. A knob is read where a source of the product
 has `quality.MEMBER`, not to assign to it. What presets, trade-offs and explanations read does not
@@ -14,7 +14,7 @@ from gauge import report  # noqa: E402
 
 ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
 FOLDERS = ("jit", "rsl", "anim", "skin", "raytrace", "runtime")
-NOT_OBEYING = ("runtime/trade/", "runtime/programs/tradeoff/", "runtime/explain/")
+NOT_OBEYING = ("runtime/picture/trade/", "runtime/programs/tradeoff/", "runtime/picture/explain/")
 ROW = re.compile(r"^KNOB\([\w:]+, (\w+),", re.M)
 READ = re.compile(r"\bquality(?:_|\(\))?\s*(?:\.|->)\s*(\w+)\b(?!\s*=[^=])")
 
@@ -58,7 +58,7 @@ def self_check():
 
 
 def main():
-    members = members_of((ROOT / "runtime/trade/knobs.def").read_text())
+    members = members_of((ROOT / "runtime/scene/quality/knobs.def").read_text())
     cases = [(f"each of {len(members)} knobs is read", unread(members, sources())),
              ("the table has knobs", [] if members else ["no row was found"]),
              ("the checker finds planted faults", self_check())]

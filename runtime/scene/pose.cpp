@@ -2,7 +2,7 @@
 #include "runtime/scene/pose.h"
 
 #include "runtime/base/memory/pages.h"
-#include "runtime/description/morph_weights.h"
+#include "runtime/scene/description/morph_weights.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {

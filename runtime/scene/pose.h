@@ -14,7 +14,7 @@
 #include "raytrace/accel.h"
 #include "raytrace/camera.h"
 #include "raytrace/integrator.h"
-#include "runtime/description/scene_description.h"
+#include "runtime/scene/description/scene_description.h"
 #include "skin/dual_quaternion.h"
 #include "skin/skin.h"
 
@@ -22,8 +22,8 @@ namespace kinora {
 
 struct Scene;
 struct Shape;
-class Shading;       // runtime/shading/shading.h
-struct VertexState;  // runtime/vertices/vertex_work.h
+class Shading;       // runtime/picture/shading/shading.h
+struct VertexState;  // runtime/scene/vertices/vertex_work.h
 
 // Where one of Scene::nodes stands.
 struct NodePose {

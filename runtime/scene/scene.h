@@ -14,7 +14,7 @@
 
 #include "anim/animation.h"
 #include "runtime/base/memory/shared_vector.h"
-#include "runtime/description/scene_description.h"
+#include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/pose.h"
 #include "runtime/scene/scene_options.h"
 #include "skin/morph.h"
@@ -23,11 +23,11 @@
 
 namespace kinora {
 
-struct ShaderInstance;  // runtime/shading/shader_instance.h
-class VertexWork;       // runtime/vertices/vertex_work.h
-class TextureStore;     // runtime/images/texture_store.h
-class PointStore;       // runtime/images/point_store.h
-struct WatchedEdges;    // runtime/vertices/dice_error.h
+struct ShaderInstance;  // runtime/scene/shaders/shader_instance.h
+class VertexWork;       // runtime/scene/vertices/vertex_work.h
+class TextureStore;     // runtime/scene/images/texture_store.h
+class PointStore;       // runtime/scene/images/point_store.h
+struct WatchedEdges;    // runtime/scene/vertices/dice_error.h
 
 // One occurrence of a node definition; parents come first.
 struct Node {

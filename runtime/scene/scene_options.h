@@ -11,7 +11,7 @@
 #include "jit/target.h"
 #include "raytrace/accel.h"
 #include "runtime/base/math.h"
-#include "runtime/trade/quality.h"
+#include "runtime/scene/quality/quality.h"
 
 namespace kinora {
 
@@ -32,7 +32,8 @@ struct ViewOptions {
 };
 
 struct SceneOptions {
-    // A view (runtime/build/views.h), or a node path or id or a camera id, the latter also behind
+    // A view (runtime/scene/build/views.h), or a node path or id or a camera id, the latter also
+    // behind
     // '#'; "": the first instance in document order, if it sees something of the scene.
     std::string camera;
     ViewOptions view;

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "runtime/description/scene_description.h"
+#include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
 

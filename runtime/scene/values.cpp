@@ -1,7 +1,7 @@
 // runtime/scene/values.cpp: a pose's values and node matrices at a time.
 #include "runtime/scene/values.h"
 
-#include "runtime/description/display_color.h"
+#include "runtime/scene/description/display_color.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 

@@ -4,7 +4,7 @@
 blender -b --factory-startup -P scripts/assets/make_gltf.py -- assets/gltf
 A post bends on three bones and breathes by two shape keys; a box beside it turns on curves; a camera
 and a sun look on. bender.json holds the world places of all vertices at some frames as Blender's own
-evaluation gives them, in glTF's axes (y up): the oracle of tests/runtime/gltf/import_gltf_blender_test.cpp.
+evaluation gives them, in glTF's axes (y up): the oracle of tests/runtime/scene/gltf/import_gltf_blender_test.cpp.
 """
 import json
 import math

@@ -26,10 +26,10 @@
 #include <vector>
 
 #include "runtime/base/parallel.h"
-#include "runtime/build/build_scene.h"
-#include "runtime/description/play_range.h"
-#include "runtime/frame/frame.h"
-#include "runtime/load/import_scene.h"
+#include "runtime/picture/frame/frame.h"
+#include "runtime/scene/build/build_scene.h"
+#include "runtime/scene/description/play_range.h"
+#include "runtime/scene/load/import_scene.h"
 #include "tests/bench/recorded_frame.h"
 
 namespace kinora {

@@ -21,11 +21,11 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
-#include "runtime/build/build_scene.h"
-#include "runtime/description/play_range.h"
-#include "runtime/frame/frame.h"
-#include "runtime/load/import_scene.h"
-#include "runtime/trade/quality.h"
+#include "runtime/picture/frame/frame.h"
+#include "runtime/scene/build/build_scene.h"
+#include "runtime/scene/description/play_range.h"
+#include "runtime/scene/load/import_scene.h"
+#include "runtime/scene/quality/quality.h"
 #include "tests/bench/recorded_frame.h"
 
 namespace kinora {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "raytrace/packet_recorder.h"
-#include "runtime/shading/kernels/kernel_probe.h"
+#include "runtime/scene/kernels/kernel_probe.h"
 
 namespace kinora {
 

@@ -111,8 +111,8 @@ inline rsl::LoweredShader lower_fast(const rsl::Layer& layer, Diagnostics& diagn
     return std::move(*lowered);
 }
 
-// What runtime/shading/shader_instance.cpp gives a parameter that the scene sets: 0 and 1 belong to
-// the shape.
+// What runtime/scene/shaders/shader_instance.cpp gives a parameter that the scene sets: 0 and 1
+// belong to the shape.
 inline std::vector<rsl::ParamBinding> bound_parameters(const rsl::Shader& shader) {
     std::vector<rsl::ParamBinding> bindings;
     for (const rsl::ShaderParameter& p : shader.parameters) {

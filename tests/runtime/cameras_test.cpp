@@ -1,5 +1,5 @@
 // tests/runtime/cameras_test.cpp: which camera a scene is seen by, and those that are added to it.
-#include "runtime/build/cameras.h"
+#include "runtime/scene/build/cameras.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/build/coverage.h"
+#include "runtime/scene/build/coverage.h"
 #include "scene_text.h"
 
 namespace kinora {

@@ -1,6 +1,6 @@
 // tests/runtime/compiled_layers_test.cpp: shader instances that are compiled together, and those
 // that are not.
-#include "runtime/build/instances/compiled_layers.h"
+#include "runtime/scene/build/instances/compiled_layers.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

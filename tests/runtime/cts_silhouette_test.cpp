@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "runtime/build/build_scene.h"
-#include "runtime/dae/import.h"
-#include "runtime/description/play_range.h"
-#include "runtime/frame/frame.h"
-#include "runtime/images/image_io.h"
+#include "runtime/picture/frame/frame.h"
+#include "runtime/scene/build/build_scene.h"
+#include "runtime/scene/dae/import.h"
+#include "runtime/scene/description/play_range.h"
+#include "runtime/scene/images/image_io.h"
 #include "tests/shared.h"
 
 namespace kinora {

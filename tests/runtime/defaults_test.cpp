@@ -1,6 +1,6 @@
 // tests/runtime/defaults_test.cpp: the lights of scenes that bring none (cameras:
 // cameras_test.cpp).
-#include "runtime/build/defaults.h"
+#include "runtime/scene/build/defaults.h"
 
 #include <gtest/gtest.h>
 

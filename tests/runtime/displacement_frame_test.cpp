@@ -12,7 +12,7 @@
 #include "displacement_scenes.h"
 #include "jit/target.h"
 #include "runtime/base/parallel.h"
-#include "runtime/vertices/vertex_work.h"
+#include "runtime/scene/vertices/vertex_work.h"
 
 namespace kinora {
 namespace {

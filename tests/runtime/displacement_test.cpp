@@ -11,7 +11,7 @@
 #include "allocations_of_ours.h"
 #include "displacement_scenes.h"
 #include "runtime/base/parallel.h"
-#include "runtime/vertices/vertex_work.h"
+#include "runtime/scene/vertices/vertex_work.h"
 
 namespace kinora {
 namespace {

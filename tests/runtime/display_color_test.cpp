@@ -1,6 +1,6 @@
 // tests/runtime/display_color_test.cpp: COLLADA's colours are those of a display: what is decoded,
 // what is not, and what moves.
-#include "runtime/description/display_color.h"
+#include "runtime/scene/description/display_color.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "expect_colors.h"
-#include "runtime/images/texture_pyramid.h"
-#include "runtime/shading/shader_instance.h"
+#include "runtime/scene/images/texture_pyramid.h"
+#include "runtime/scene/shaders/shader_instance.h"
 #include "scene_text.h"
 
 namespace kinora {

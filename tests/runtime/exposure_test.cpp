@@ -1,5 +1,5 @@
 // tests/runtime/exposure_test.cpp: how bright pictures are made, against arithmetic by hand.
-#include "runtime/frame/exposure.h"
+#include "runtime/picture/frame/exposure.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "runtime/compare/errors.h"
+#include "runtime/picture/compare/errors.h"
 #include "scene_text.h"
 
 namespace kinora {

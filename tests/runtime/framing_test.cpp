@@ -1,5 +1,5 @@
 // tests/runtime/framing_test.cpp: framing and coverage against projections and rays, one by one.
-#include "runtime/build/framing.h"
+#include "runtime/scene/build/framing.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <random>
 
 #include "raytrace/accel.h"
-#include "runtime/build/coverage.h"
-#include "runtime/build/views.h"
+#include "runtime/scene/build/coverage.h"
+#include "runtime/scene/build/views.h"
 #include "runtime/scene/camera.h"
 #include "scene_text.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "jit/target.h"
-#include "runtime/load/override_scene.h"
-#include "runtime/load/override_shader.h"
+#include "runtime/scene/load/override_scene.h"
+#include "runtime/scene/load/override_shader.h"
 #include "scene_text.h"
 #include "tests/folders.h"
 

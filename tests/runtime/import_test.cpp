@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "runtime/shading/shader_instance.h"
+#include "runtime/scene/shaders/shader_instance.h"
 #include "scene_text.h"
 
 namespace kinora {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "expect_colors.h"
-#include "runtime/images/image_io.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "expect_colors.h"
 #include "runtime/scene/values.h"
-#include "runtime/vertices/deform.h"
+#include "runtime/scene/vertices/deform.h"
 
 namespace kinora {
 namespace {

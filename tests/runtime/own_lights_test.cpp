@@ -1,6 +1,6 @@
 // tests/runtime/own_lights_test.cpp: scenes that their own lights leave black get the default
 // lights, and no others do.
-#include "runtime/frame/own_lights.h"
+#include "runtime/picture/frame/own_lights.h"
 
 #include <gtest/gtest.h>
 

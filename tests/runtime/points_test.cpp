@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "runtime/images/point_store.h"
+#include "runtime/scene/images/point_store.h"
 #include "scene_text.h"
 
 namespace kinora {

@@ -2,7 +2,7 @@
 // shaders has its code and place; what is right has none.
 #include <gtest/gtest.h>
 
-#include "runtime/profile_rsl/check.h"
+#include "runtime/scene/profile_rsl/check.h"
 #include "tests/collada/reading.h"
 
 namespace kinora {

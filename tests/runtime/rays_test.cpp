@@ -11,7 +11,7 @@
 #include "allocations_of_ours.h"
 #include "jit/target.h"
 #include "ray_scenes.h"
-#include "runtime/images/image_io.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 namespace {

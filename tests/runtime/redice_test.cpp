@@ -1,7 +1,7 @@
 // tests/runtime/redice_test.cpp: displaced meshes that are too coarse for a view, and scenes built
 // again for it, in the background too. The oracle measures all triangles as a picture shows them.
-#include "runtime/frame/redice.h"
-#include "runtime/build/build_scene.h"
+#include "runtime/picture/frame/redice.h"
+#include "runtime/scene/build/build_scene.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 #include "displacement_scenes.h"
 #include "runtime/base/parallel.h"
-#include "runtime/vertices/dice_error.h"
+#include "runtime/scene/vertices/dice_error.h"
 
 namespace kinora {
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "runtime/base/parallel.h"
-#include "runtime/build/build_scene.h"
+#include "runtime/scene/build/build_scene.h"
 #include "tests/folders.h"
 
 namespace kinora {

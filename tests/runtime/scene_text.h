@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/dae/import.h"
-#include "runtime/frame/frame.h"
-#include "runtime/load/import_scene.h"
+#include "runtime/picture/frame/frame.h"
+#include "runtime/scene/dae/import.h"
+#include "runtime/scene/load/import_scene.h"
 
 namespace kinora {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "jit/target.h"
+#include "runtime/picture/shading/shading.h"
 #include "runtime/scene/medium.h"
-#include "runtime/shading/shading.h"
 #include "scene_text.h"
 #include "tests/folders.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "runtime/images/image_io.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 

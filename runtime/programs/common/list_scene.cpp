@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "runtime/description/play_range.h"
-#include "runtime/description/shader_library.h"
-#include "runtime/shading/shader_instance.h"
+#include "runtime/scene/description/play_range.h"
+#include "runtime/scene/description/shader_library.h"
+#include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
 
@@ -274,7 +274,7 @@ constexpr Kind kKinds[] = {
     {"nodes", nodes, node_line},
 };
 
-// docs/format.md#cameras; runtime/build/defaults.cpp.
+// docs/format.md#cameras; runtime/scene/build/defaults.cpp.
 struct Added {
     std::string_view name, meaning;
 };

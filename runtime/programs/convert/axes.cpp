@@ -8,9 +8,9 @@
 
 #include "collada/document/edit.h"
 #include "collada/document/write.h"
-#include "runtime/description/findings.h"
 #include "runtime/programs/convert/axes_p.h"
 #include "runtime/programs/convert/convert.h"
+#include "runtime/scene/description/findings.h"
 
 namespace kinora {
 

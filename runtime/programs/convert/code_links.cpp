@@ -5,7 +5,7 @@
 
 #include "collada/document/edit.h"
 #include "runtime/base/regular_file.h"
-#include "runtime/description/rsl_literals.h"
+#include "runtime/scene/description/rsl_literals.h"
 
 namespace kinora {
 

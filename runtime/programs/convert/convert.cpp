@@ -18,15 +18,15 @@
 #include "runtime/base/raise_findings.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/stats.h"
-#include "runtime/dae/export.h"
-#include "runtime/description/findings.h"
-#include "runtime/gltf/document/glb.h"
-#include "runtime/gltf/export/export.h"
-#include "runtime/load/import_scene.h"
-#include "runtime/load/smooth_normals.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/convert/worn_shaders_p.h"
 #include "runtime/programs/convert/write_whole_p.h"
+#include "runtime/scene/dae/export.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/gltf/document/glb.h"
+#include "runtime/scene/gltf/export/export.h"
+#include "runtime/scene/load/import_scene.h"
+#include "runtime/scene/load/smooth_normals.h"
 
 namespace kinora {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/description/scene_description.h"
 #include "runtime/programs/common/finding_printer.h"
+#include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
 

@@ -11,12 +11,12 @@
 #include "collada/document/uri.h"
 #include "collada/schema/links.h"
 #include "runtime/base/picture_search.h"
-#include "runtime/description/findings.h"
-#include "runtime/description/rsl_literals.h"
 #include "runtime/programs/convert/code_links_p.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/programs/convert/links_p.h"
 #include "runtime/programs/convert/rsl_files_p.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/rsl_literals.h"
 
 namespace kinora {
 

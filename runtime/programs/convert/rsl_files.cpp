@@ -1,9 +1,9 @@
 // runtime/programs/convert/rsl_files.cpp: names of files in RSL.
 #include "runtime/programs/convert/rsl_files_p.h"
 
-#include "runtime/description/rsl_literals.h"
 #include "runtime/programs/convert/code_links_p.h"
 #include "runtime/programs/convert/links_p.h"
+#include "runtime/scene/description/rsl_literals.h"
 
 namespace kinora {
 

@@ -6,13 +6,13 @@
 
 #include "collada/document/edit.h"
 #include "runtime/base/regular_file.h"
-#include "runtime/description/display_color.h"
-#include "runtime/description/findings.h"
-#include "runtime/description/shader_library.h"
-#include "runtime/load/override_scene.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/programs/convert/rsl_profile_p.h"
 #include "runtime/programs/convert/worn_shaders_p.h"
+#include "runtime/scene/description/display_color.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/shader_library.h"
+#include "runtime/scene/load/override_scene.h"
 
 namespace kinora {
 

@@ -11,9 +11,9 @@
 #include "collada/document/write.h"
 #include "collada/extract/extract.h"
 #include "collada/scene/node_occurrences.h"
-#include "runtime/description/findings.h"
 #include "runtime/programs/convert/axes_p.h"
 #include "runtime/programs/convert/convert.h"
+#include "runtime/scene/description/findings.h"
 
 namespace kinora {
 

@@ -1,7 +1,7 @@
 // runtime/programs/convert/worn_shaders.cpp: which shader of the command line stands where.
 #include "runtime/programs/convert/worn_shaders_p.h"
 
-#include "runtime/description/findings.h"
+#include "runtime/scene/description/findings.h"
 
 namespace kinora {
 

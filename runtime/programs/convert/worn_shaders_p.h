@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "runtime/load/override_shader.h"
+#include "runtime/scene/load/override_shader.h"
 
 namespace kinora {
 

@@ -6,17 +6,17 @@
 #include <cstdio>
 
 #include "runtime/base/parallel.h"
-#include "runtime/build/build_scene.h"
-#include "runtime/build/defaults.h"
-#include "runtime/description/findings.h"
-#include "runtime/description/play_range.h"
-#include "runtime/frame/exposure.h"
-#include "runtime/frame/own_lights.h"
-#include "runtime/load/import_scene.h"
-#include "runtime/load/override_scene.h"
-#include "runtime/load/override_shader.h"
+#include "runtime/picture/frame/exposure.h"
+#include "runtime/picture/frame/own_lights.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/scene/build/build_scene.h"
+#include "runtime/scene/build/defaults.h"
 #include "runtime/scene/camera.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/play_range.h"
+#include "runtime/scene/load/import_scene.h"
+#include "runtime/scene/load/override_scene.h"
+#include "runtime/scene/load/override_shader.h"
 
 namespace kinora {
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/frame/frame.h"
-#include "runtime/frame/redice.h"
+#include "runtime/picture/frame/frame.h"
+#include "runtime/picture/frame/redice.h"
 #include "runtime/programs/open/scene_request.h"
 
 namespace kinora {

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/description/import_options.h"
-#include "runtime/images/image_io.h"
 #include "runtime/programs/common/finding_printer.h"
 #include "runtime/programs/common/frame_list.h"
+#include "runtime/scene/description/import_options.h"
+#include "runtime/scene/images/image_io.h"
+#include "runtime/scene/quality/quality.h"
 #include "runtime/scene/scene.h"
-#include "runtime/trade/quality.h"
 
 namespace kinora {
 

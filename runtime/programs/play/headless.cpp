@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "runtime/play/script.h"
+#include "runtime/player/script.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "runtime/play/player.h"
+#include "runtime/player/player.h"
 #include "runtime/programs/play/options.h"
 
 namespace kinora {

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "runtime/base/memory/heap.h"
-#include "runtime/play/player.h"
+#include "runtime/player/player.h"
 #include "runtime/programs/common/run_program.h"
 #include "runtime/programs/common/standard_streams.h"
 #include "runtime/programs/play/headless.h"

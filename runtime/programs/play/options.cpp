@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "runtime/play/commands.h"
+#include "runtime/player/commands.h"
 #include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "runtime/images/picture_file.h"
 #include "runtime/programs/render/frame_writer.h"
+#include "runtime/scene/images/picture_file.h"
 
 namespace kinora {
 

@@ -12,8 +12,8 @@
 #include "runtime/base/files/build_id.h"
 #include "runtime/base/files/content_hash.h"
 #include "runtime/base/regular_file.h"
-#include "runtime/description/texture_name.h"
-#include "runtime/trade/knobs.h"
+#include "runtime/scene/description/texture_name.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

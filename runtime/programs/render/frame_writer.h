@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "runtime/images/image_io.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "runtime/description/findings.h"
 #include "runtime/programs/open/open_scene.h"
+#include "runtime/scene/description/findings.h"
 #include "runtime/scene/scene.h"
-#include "runtime/shading/shader_instance.h"
+#include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
 

@@ -15,9 +15,8 @@
 #include "runtime/base/memory/heap.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/raise_findings.h"
-#include "runtime/description/findings.h"
-#include "runtime/explain/explain.h"
-#include "runtime/images/texture_store.h"
+#include "runtime/picture/explain/explain.h"
+#include "runtime/picture/trade/variants.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/list_scene.h"
@@ -35,7 +34,8 @@
 #include "runtime/programs/render/targeted.h"
 #include "runtime/programs/tradeoff/asserts.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
-#include "runtime/trade/variants.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/images/texture_store.h"
 
 namespace kinora {
 

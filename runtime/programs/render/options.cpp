@@ -7,13 +7,13 @@
 
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
-#include "runtime/build/views.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/quality_options.h"
 #include "runtime/programs/render/session_words.h"
 #include "runtime/programs/render/trade_options.h"
+#include "runtime/scene/build/views.h"
 
 namespace kinora {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/play/session/session.h"
+#include "runtime/picture/trade/target.h"
+#include "runtime/player/session/session.h"
 #include "runtime/programs/common/progress.h"
 #include "runtime/programs/open/scene_request.h"
-#include "runtime/trade/target.h"
 
 namespace kinora {
 

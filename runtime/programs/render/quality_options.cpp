@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "runtime/trade/knob_tables.h"
+#include "runtime/picture/trade/knob_tables.h"
 
 namespace kinora {
 

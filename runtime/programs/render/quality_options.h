@@ -7,7 +7,7 @@
 
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/render/options.h"
-#include "runtime/trade/knobs.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

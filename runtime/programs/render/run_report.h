@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/frame/frame.h"
+#include "runtime/picture/frame/frame.h"
 
 namespace kinora {
 

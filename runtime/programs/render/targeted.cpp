@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "runtime/trade/knobs.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/frame/frame.h"
+#include "runtime/picture/frame/frame.h"
 #include "runtime/programs/tradeoff/choose_settings.h"
 
 namespace kinora {

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/stats.h"
+#include "runtime/picture/trade/front.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/kernel.h"
-#include "runtime/trade/front.h"
 
 namespace kinora {
 

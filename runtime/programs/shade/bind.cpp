@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cstdio>
 
-#include "runtime/description/findings.h"
-#include "runtime/description/shader_library.h"
-#include "runtime/load/override_scene.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/co_shaders.h"
 #include "runtime/programs/shade/kernel.h"
-#include "runtime/shading/shader_instance.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/shader_library.h"
+#include "runtime/scene/load/override_scene.h"
+#include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
 

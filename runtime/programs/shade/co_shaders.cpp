@@ -8,7 +8,7 @@
 #include "rsl/text/findings.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
-#include "runtime/load/override_scene.h"
+#include "runtime/scene/load/override_scene.h"
 
 namespace kinora {
 

@@ -9,8 +9,8 @@
 
 #include "jit/ir/kernel_call.h"
 #include "rsl/reference/reference.h"
-#include "runtime/shading/kernels/columns.h"
-#include "runtime/shading/kernels/point_source.h"
+#include "runtime/scene/kernels/columns.h"
+#include "runtime/scene/kernels/point_source.h"
 
 namespace kinora {
 

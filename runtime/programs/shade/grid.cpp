@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
-#include "runtime/shading/kernels/columns.h"
+#include "runtime/scene/kernels/columns.h"
 
 namespace kinora {
 

@@ -9,8 +9,8 @@
 
 #include "rsl/model/kernel_keys.h"
 #include "runtime/base/math.h"
-#include "runtime/images/texture_store.h"
-#include "runtime/shading/kernels/point_source.h"
+#include "runtime/scene/images/texture_store.h"
+#include "runtime/scene/kernels/point_source.h"
 
 namespace kinora {
 

@@ -9,7 +9,7 @@
 #include "jit/ir/kernel_call.h"
 #include "raytrace/accel.h"
 #include "runtime/base/stats.h"
-#include "runtime/shading/kernels/columns.h"
+#include "runtime/scene/kernels/columns.h"
 
 namespace kinora {
 

@@ -12,7 +12,7 @@
 #include "runtime/base/arena.h"
 #include "runtime/programs/shade/patch_host.h"
 #include "runtime/programs/shade/source.h"
-#include "runtime/shading/kernels/bound_kernel.h"
+#include "runtime/scene/kernels/bound_kernel.h"
 
 namespace kinora {
 

@@ -2,10 +2,10 @@
 #include <cstdio>
 
 #include "rsl/lint/lint.h"
-#include "runtime/images/image_io.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/shade/manual_pages.h"
 #include "runtime/programs/shade/source.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 

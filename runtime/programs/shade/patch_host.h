@@ -6,8 +6,8 @@
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/programs/shade/grid.h"
-#include "runtime/shading/kernels/kernel_host.h"
-#include "runtime/shading/printed_lines.h"
+#include "runtime/scene/kernels/kernel_host.h"
+#include "runtime/scene/shaders/printed_lines.h"
 
 namespace kinora {
 

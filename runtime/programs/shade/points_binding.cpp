@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "runtime/base/diagnostic.h"
-#include "runtime/shading/shader_instance.h"
+#include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "runtime/base/arena.h"
-#include "runtime/images/texture_store.h"
 #include "runtime/programs/shade/point_set.h"
-#include "runtime/shading/kernels/kernel_host.h"
-#include "runtime/shading/printed_lines.h"
+#include "runtime/scene/images/texture_store.h"
+#include "runtime/scene/kernels/kernel_host.h"
+#include "runtime/scene/shaders/printed_lines.h"
 
 namespace kinora {
 

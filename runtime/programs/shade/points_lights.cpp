@@ -8,7 +8,7 @@
 #include "jit/ir/kernel_call.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/points_host.h"
-#include "runtime/shading/kernels/light_categories.h"
+#include "runtime/scene/kernels/light_categories.h"
 
 namespace kinora {
 

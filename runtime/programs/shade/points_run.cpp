@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "runtime/load/override_scene.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/co_shaders.h"
 #include "runtime/programs/shade/points_lights.h"
+#include "runtime/scene/load/override_scene.h"
 
 namespace kinora {
 

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "runtime/base/stats.h"
-#include "runtime/images/image_io.h"
-#include "runtime/images/texture.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/compare.h"
+#include "runtime/scene/images/image_io.h"
+#include "runtime/scene/images/texture.h"
 
 namespace kinora {
 

@@ -18,11 +18,11 @@
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/text_encoding.h"
-#include "runtime/profile_rsl/effect_linker.h"
-#include "runtime/profile_rsl/joined_code.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
 #include "runtime/programs/shade/co_shaders.h"
+#include "runtime/scene/profile_rsl/effect_linker.h"
+#include "runtime/scene/profile_rsl/joined_code.h"
 
 namespace kinora {
 

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/base/cpu_clock.h"
-#include "runtime/compare/ulp.h"
+#include "runtime/picture/compare/ulp.h"
+#include "runtime/picture/trade/front.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/shade/compare.h"
-#include "runtime/trade/front.h"
 
 namespace kinora {
 

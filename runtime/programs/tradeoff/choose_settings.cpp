@@ -9,10 +9,10 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
-#include "runtime/compare/flip.h"
+#include "runtime/picture/compare/flip.h"
 #include "runtime/programs/tradeoff/measured.h"
 #include "runtime/programs/tradeoff/renders.h"
-#include "runtime/trade/knobs.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "runtime/trade/knobs.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "runtime/trade/quality.h"
-#include "runtime/trade/target.h"
+#include "runtime/picture/trade/target.h"
+#include "runtime/scene/quality/quality.h"
 
 namespace kinora {
 

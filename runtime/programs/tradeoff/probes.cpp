@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "runtime/base/parallel.h"
-#include "runtime/compare/errors.h"
-#include "runtime/compare/ulp.h"
+#include "runtime/picture/compare/errors.h"
+#include "runtime/picture/compare/ulp.h"
 
 namespace kinora {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/compare/picture.h"
+#include "runtime/picture/compare/picture.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {

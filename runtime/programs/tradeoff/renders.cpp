@@ -3,7 +3,7 @@
 
 #include "runtime/base/cpu_clock.h"
 #include "runtime/base/stats.h"
-#include "runtime/trade/knobs.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/images/png_memory.h"
 #include "runtime/programs/tradeoff/plot.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
+#include "runtime/scene/images/png_memory.h"
 
 namespace kinora {
 

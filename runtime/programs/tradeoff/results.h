@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "runtime/base/stage_clock.h"
-#include "runtime/compare/errors.h"
+#include "runtime/picture/compare/errors.h"
+#include "runtime/picture/trade/front.h"
+#include "runtime/picture/trade/variants.h"
 #include "runtime/programs/tradeoff/plan.h"
-#include "runtime/trade/front.h"
-#include "runtime/trade/variants.h"
 
 namespace kinora {
 
@@ -91,8 +91,9 @@ inline constexpr double kSureCover = 0.95;
 
 // Fills on_front and off_front: time against FLIP. The former by medians; the latter by what the
 // intervals are sure of, from this one's lower end to the upper ends of others. It is 0 for a row
-// whose interval holds less than kSureCover, and such rows are compared with none. Nor are rows with
-// a setting that keeps the base's picture here though its knob trades pictures: chance of a scene.
+// whose interval holds less than kSureCover, and such rows are compared with none. Nor are rows
+// with a setting that keeps the base's picture here though its knob trades pictures: chance of a
+// scene.
 void mark_front(TradeResults& results);
 
 std::string frames_text(const TradeResults& results);  // "24 (fastest), 1 (first)"

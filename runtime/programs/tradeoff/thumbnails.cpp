@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/images/png_memory.h"
+#include "runtime/scene/images/png_memory.h"
 
 namespace kinora {
 

@@ -1,8 +1,8 @@
 // runtime/programs/tradeoff/thumbnails.h: small pictures of pictures and of their errors.
 #pragma once
 
-#include "runtime/compare/picture.h"
-#include "runtime/images/image_io.h"
+#include "runtime/picture/compare/picture.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 

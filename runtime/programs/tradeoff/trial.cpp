@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "runtime/base/stats.h"
-#include "runtime/compare/errors.h"
-#include "runtime/trade/knobs.h"
+#include "runtime/picture/compare/errors.h"
+#include "runtime/scene/quality/knobs.h"
 
 namespace kinora {
 

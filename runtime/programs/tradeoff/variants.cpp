@@ -6,10 +6,10 @@
 #include <functional>
 
 #include "runtime/base/parallel.h"
-#include "runtime/images/image_io.h"
 #include "runtime/programs/tradeoff/measurement_p.h"
 #include "runtime/programs/tradeoff/probes.h"
 #include "runtime/programs/tradeoff/thumbnails.h"
+#include "runtime/scene/images/image_io.h"
 
 namespace kinora {
 

@@ -9,12 +9,12 @@
 #include "collada/document/id_path.h"
 #include "collada/document/open_scene.h"
 #include "collada/validate/profile.h"
-#include "runtime/profile_rsl/check.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
 #include "runtime/programs/validate/foreign_schema.h"
 #include "runtime/programs/validate/kinora_validate.h"
 #include "runtime/programs/validate/rules.h"
+#include "runtime/scene/profile_rsl/check.h"
 
 namespace kinora {
 

@@ -9,9 +9,9 @@
 #include "collada/document/findings.h"
 #include "jit/ir/findings.h"
 #include "rsl/text/findings.h"
-#include "runtime/description/findings.h"
-#include "runtime/profile_rsl/findings.h"
 #include "runtime/programs/validate/escaped_text.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/profile_rsl/findings.h"
 
 namespace kinora {
 
@@ -34,8 +34,8 @@ Rows make_rules() {
     for (const FindingInfo* row : rsl::finding_rows()) rows.push_back(row);
     for (const FindingInfo* row : {
 #define FINDING(code, ...) &Code::code,
-#include "runtime/profile_rsl/findings.def"
 #include "runtime/programs/validate/findings.def"
+#include "runtime/scene/profile_rsl/findings.def"
 #undef FINDING
          })
         rows.push_back(row);
@@ -46,7 +46,7 @@ Rows make_rules() {
 Rows make_others() {
     Rows rows = {
 #define FINDING(code, ...) &Code::code,
-#include "runtime/description/findings.def"
+#include "runtime/scene/description/findings.def"
 #undef FINDING
 #define FINDING(code, ...) &jit::Code::code,
 #include "jit/ir/findings.def"

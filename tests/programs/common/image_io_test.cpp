@@ -1,6 +1,6 @@
 // tests/programs/common/image_io_test.cpp: pictures come back as they were written, and a name
 // stands for a whole file or for none.
-#include "runtime/images/image_io.h"
+#include "runtime/scene/images/image_io.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -25,7 +25,7 @@
 #include <limits>
 #include <random>
 
-#include "runtime/images/picture_file.h"
+#include "runtime/scene/images/picture_file.h"
 
 namespace kinora {
 namespace {

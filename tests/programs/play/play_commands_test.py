@@ -35,7 +35,7 @@ class Row:
 
 def rows():
     """The rows of commands.def by word."""
-    text = (SOURCE / "runtime/play/commands.def").read_text()
+    text = (SOURCE / "runtime/player/commands.def").read_text()
     string = r'"((?:[^"\\]|\\.)*)"'
     pattern = r"^COMMAND\((\w+), " + ", ".join([string] * 5) + r", (\w+), " + string + r"\)$"
     found = {}

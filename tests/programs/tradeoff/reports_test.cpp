@@ -5,11 +5,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "runtime/images/png_memory.h"
 #include "runtime/programs/tradeoff/asserts.h"
 #include "runtime/programs/tradeoff/plot.h"
 #include "runtime/programs/tradeoff/thumbnails.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
+#include "runtime/scene/images/png_memory.h"
 
 namespace kinora {
 namespace {

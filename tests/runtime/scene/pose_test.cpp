@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "runtime/frame/frame.h"
+#include "runtime/picture/frame/frame.h"
 #include "tests/folders.h"
 #include "tests/runtime/scene_text.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/play/player.h"
+#include "runtime/player/player.h"
 #include "runtime/programs/play/ui/layout.h"
 #include "runtime/programs/play/ui/theme.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "runtime/explain/explain.h"
+#include "runtime/picture/explain/explain.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {

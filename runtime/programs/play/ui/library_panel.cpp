@@ -1,7 +1,7 @@
 // runtime/programs/play/ui/library_panel.cpp: our shaders as pictures of the selected object.
 #include <imgui.h>
 
-#include "runtime/play/thumbnails.h"
+#include "runtime/player/thumbnails.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {

@@ -3,7 +3,7 @@
 #include <imgui.h>
 
 #include "runtime/programs/play/ui/panels.h"
-#include "runtime/trade/quality.h"
+#include "runtime/scene/quality/quality.h"
 
 namespace kinora::play {
 

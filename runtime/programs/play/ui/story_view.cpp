@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "runtime/play/pixel/pixel_story.h"
+#include "runtime/player/pixel/pixel_story.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/play/display.h"
-#include "runtime/play/scene_maker.h"
+#include "runtime/player/display.h"
+#include "runtime/player/scene_maker.h"
 #include "runtime/programs/play/ui/panels.h"
 
 namespace kinora::play {

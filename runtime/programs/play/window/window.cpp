@@ -14,8 +14,8 @@
 #include <iterator>
 #include <optional>
 
-#include "runtime/play/scene_maker.h"
-#include "runtime/play/script.h"
+#include "runtime/player/scene_maker.h"
+#include "runtime/player/script.h"
 #include "runtime/programs/play/ui/ui.h"
 #include "runtime/programs/play/window/batch.h"
 #include "runtime/programs/play/window/input.h"

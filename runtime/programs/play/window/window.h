@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "runtime/play/player.h"
+#include "runtime/player/player.h"
 
 namespace kinora::play {
 

@@ -1,0 +1,146 @@
+// runtime/picture/shading/area_light.cpp: lights on geometry: their shaders run at samples of the
+// mesh.
+//
+// Each lit point asks n samples, spread evenly over the area: an Owen-scrambled (0,2)-sequence
+// seeded by the point and the light, so that the first 2^k are stratified and nothing depends on
+// threads or tiles. A sample is a light of its own (P, N, u, v, s, t on the mesh; what the shader
+// illuminates is a record) whose Cl counts 1/n: the mean over the surface of what a point light
+// with that shader would give, so a light that shrinks to a point becomes that point light. The
+// samples follow the mesh of the frame. A surface does not light itself.
+#include "runtime/picture/shading/area_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "raytrace/sampling.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr uint32_t kDefaultSamples = 16;
+
+// Uniform over a triangle: u, v of its corners 1 and 2 (P. Shirley and K. Chiu 1997: the square
+// folded by a root).
+vec2 on_triangle(float x, float y) {
+    float root = std::sqrt(x);
+    return {root * (1 - y), root * y};
+}
+
+}  // namespace
+
+uint32_t light_samples(const Scene& scene, size_t light) {
+    const uint32_t own = scene.description->lights[scene.lights[light].definition].samples;
+    return scene.options.quality.light_samples ? scene.options.quality.light_samples
+           : own                               ? own
+                                               : kDefaultSamples;
+}
+
+AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings) : frame_(frame) {
+    const Scene& scene = frame.scene;
+    for (size_t l = 0; l < scene.lights.size(); ++l) {
+        const LightSource& source = scene.lights[l];
+        auto& light = lights_.emplace_back();
+        if (source.surface == kNone) continue;
+        light = std::make_unique<AreaLight>();
+        light->surface = source.surface;
+        if (!bindings.directed(l)) continue;
+        light->samples = light_samples(scene, l);
+    }
+}
+
+void AreaLights::begin_frame() {
+    const Scene& scene = frame_.scene;
+    for (auto& light : lights_) {
+        if (!light) continue;
+        const Surface& surface = scene.surfaces[light->surface];
+        const Shape& shape = scene.shapes[surface.shape];
+        const ShapePose& stands = frame_.pose.shapes[surface.shape];
+        if (light->known && shape.kind == raytrace::GeometryKind::Static) continue;
+        const auto& triangles = scene.meshes[shape.mesh].groups[surface.group].triangles;
+        bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
+        dmat3 linear = instanced ? dmat3(stands.world) : dmat3(1.0);
+        light->below.resize(triangles.size() / 3);
+        double sum = 0;
+        for (size_t t = 0; t < light->below.size(); ++t) {
+            auto corner = [&](size_t k) {
+                return linear * dvec3(stands.shown_positions[triangles[3 * t + k]]);
+            };
+            double area =
+                0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+            if (std::isfinite(area)) sum += area;
+            light->below[t] = float(sum);
+        }
+        light->known = true;
+    }
+}
+
+void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight& light,
+                        uint32_t sample, LightSamples& samples) const {
+    lit.note_random();
+    const std::vector<float>& below = light.below;
+    uint32_t number = uint32_t(lit.look->index);  // tells lights on one surface apart
+    for (size_t i = 0; i < padded(at.count); ++i) {
+        size_t point = std::min(i, at.count - 1);
+        const raytrace::SampleSeries series =
+            raytrace::series_of(at.series[point], raytrace::hash(number, frame_.seed));
+        vec2 u(raytrace::stratified_sample(series.part * light.samples + sample, series.seed));
+        float wanted = u.x * below.back();
+        size_t t = size_t(std::upper_bound(below.begin(), below.end(), wanted) - below.begin());
+        t = std::min(t, below.size() - 1);
+        float from = t ? below[t - 1] : 0.0f, area = below[t] - from;
+        vec2 uv = on_triangle(area > 0 ? std::min((wanted - from) / area, 1.0f) : 0.0f, u.y);
+        samples.primitive[i] = uint32_t(t);
+        samples.u[i] = uv.x;
+        samples.v[i] = uv.y;
+    }
+    frame_.pose.accel.surface_points(at.count, samples.instance.data(), samples.primitive.data(),
+                                     samples.u, samples.v, samples.on_surface);
+}
+
+LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_t surface) {
+    Arena& arena = grid.memory.arena;
+    size_t rows = padded(count);
+    auto take = [&] { return arena.allocate_span<float>(rows).data(); };
+    float* zeros = take();
+    std::fill_n(zeros, rows, 0.0f);
+    std::span<uint32_t> none = arena.allocate_span<uint32_t>(rows);
+    std::fill(none.begin(), none.end(), 0u);
+    instance = arena.allocate_span<uint32_t>(rows);
+    std::fill(instance.begin(), instance.end(), surface);
+    primitive = arena.allocate_span<uint32_t>(rows);
+    u = take();
+    v = take();
+    hits = {};
+    hits.count = count;
+    hits.depth = grid.depth;
+    hits.geometry = hits.instance = instance.data();
+    hits.primitive = primitive.data();
+    hits.u = u;
+    hits.v = v;
+    hits.t = hits.time = zeros;
+    for (size_t k = 0; k < 3; ++k) {
+        on_surface.P[k] = take();
+        on_surface.P_error[k] = take();
+        on_surface.Ng[k] = take();
+        hits.P[k] = on_surface.P[k];
+        hits.P_error[k] = on_surface.P_error[k];
+        hits.Ng[k] = on_surface.Ng[k];
+        hits.org[k] = hits.dir[k] = zeros;
+        hits.dPdx[k] = hits.dPdy[k] = hits.dDdx[k] = hits.dDdy[k] = zeros;
+    }
+    auto pick = [&](const uint32_t* from) {
+        std::span<uint32_t> to = arena.allocate_span<uint32_t>(rows);
+        for (size_t i = 0; i < rows; ++i) to[i] = from[grid.points[first + std::min(i, count - 1)]];
+        return to.data();
+    };
+    hits.pixel_x = pick(grid.hits.pixel_x);
+    hits.pixel_y = pick(grid.hits.pixel_y);
+    hits.sample = pick(grid.hits.sample);
+    hits.layer = pick(grid.hits.layer);
+    hits.ray = none.data();
+}
+
+}  // namespace kinora

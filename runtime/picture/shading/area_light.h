@@ -1,0 +1,72 @@
+// runtime/picture/shading/area_light.h: lights on geometry: where on it each lit point looks.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "raytrace/accel.h"
+#include "raytrace/random/series.h"
+#include "runtime/picture/shading/grid.h"
+#include "runtime/picture/shading/light_bindings.h"
+
+namespace kinora {
+
+// Where light is wanted: points in current space, and in accel space with their error bounds.
+struct LightPoints {
+    size_t count = 0;
+    const float* P[3];
+    const float* N[3];
+    const float* accel[3];
+    const float* error[3];
+    const float* Ng[3];                 // accel space
+    const uint32_t* normals = nullptr;  // Grid::normals of these points
+    const float* rng = nullptr;
+    const raytrace::SampleSeries* series = nullptr;  // where some light has samples
+    const uint32_t* surface = nullptr;               // the surface that is lit, kNone: none
+    const float* zeros = nullptr;                    // a row of them
+    size_t first = 0;  // grid point of element 0: what record columns are relative to
+    bool own = false;  // the grid's points themselves
+};
+
+// One sample of an area light for each of a number of lit points.
+struct LightSamples {
+    // For the points of `grid` from `first` on, yet to be chosen; what a light kernel's services
+    // may read of a hit is 0.
+    LightSamples(const Grid& grid, size_t first, size_t count, uint32_t surface);
+
+    raytrace::HitBatch hits;
+    std::span<uint32_t> instance, primitive;
+    float *u, *v;
+    raytrace::Accel::SurfacePoints on_surface;
+};
+
+// A light on geometry: its triangles by area.
+struct AreaLight {
+    uint32_t surface = kNone;
+    uint32_t samples = 1;
+    std::vector<float> below;  // area of the triangles up to each, summed
+    bool known = false;
+    bool has_area() const { return !below.empty() && below.back() > 0; }
+};
+
+// Samples of lights that have an extent: of those on geometry and of solar with an angle.
+uint32_t light_samples(const Scene& scene, size_t light);
+
+class AreaLights {
+  public:
+    AreaLights(const ShadingFrame& frame, const LightBindings& bindings);
+    // Areas once, and again in each frame where the mesh may deform or be scaled.
+    void begin_frame();
+    // Light `light` among Scene::lights; null where it is none on geometry.
+    const AreaLight* find(size_t light) const { return lights_[light].get(); }
+    // Sample `sample` of the light at each point; `lit` is the grid that its kernel runs on.
+    void choose(const Grid& lit, const LightPoints& at, const AreaLight& light, uint32_t sample,
+                LightSamples& samples) const;
+
+  private:
+    const ShadingFrame& frame_;
+    std::vector<std::unique_ptr<AreaLight>> lights_;
+};
+
+}  // namespace kinora

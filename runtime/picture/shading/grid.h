@@ -1,0 +1,83 @@
+// runtime/picture/shading/grid.h: a shading grid: the points of some hits that wear one look, as
+// columns.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "jit/ir/kernel_call.h"
+#include "raytrace/wavefront.h"
+#include "runtime/picture/shading/shading_frame.h"
+#include "runtime/scene/shaders/picture_points.h"
+#include "runtime/scene/shaders/shader_instance.h"
+
+namespace kinora {
+
+class LightShadows;
+class RayCollector;
+
+inline constexpr size_t kRecordSets = 256;  // handles a grid may hold at once
+inline constexpr size_t kGatherSets = kRecordSets - rsl::kGatherLevels;  // the last ones
+
+using jit::padded;
+
+// The rays that a point has shot, and how the ray that sees it goes on.
+struct PointRays {
+    uint32_t shot = 0;     // those of points that the ray has passed included
+    uint32_t refused = 0;  // asked for, and too deep or of too small a share
+    bool ended = false;    // its budget is spent: the loops that shoot rays end
+    bool reflects = false;
+    float onward = 1;  // raytrace::Passage::onward
+};
+
+// Its columns are in the thread's arena. Lives on the stack of whatever shades it; services see it
+// through GridHost.
+struct Grid : PicturePoints {
+    Grid(const ShadingFrame& f, ThreadMemory& m, const raytrace::HitBatch& h,
+         std::span<const uint32_t> p, const ShaderInstance* l)
+        : PicturePoints{f, h, p, l}, frame(f), memory(m), scene(f.scene), pose(f.pose) {}
+    Grid(const Grid&) = delete;
+
+    const ShadingFrame& frame;
+    ThreadMemory& memory;
+    const Scene& scene;
+    const Pose& pose;
+    bool dense = false;      // hits one behind the other
+    bool ascending = false;  // their numbers grow
+    // Of each point: raytrace::kUnitNormals, kOneNormal or 0, which is always right. With N only.
+    std::span<uint32_t> normals;
+    std::span<jit::RecordSet> record_sets;  // [0]: lights at P
+    uint32_t next_record_set = 1;
+    int32_t record_group = -1;        // first lane of the group that lights_at served last
+    Arena::Mark record_mark{};        // where its records begin
+    uint32_t record_calls = 0;        // of the group
+    LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
+    // Of each point that may, calls that shot rays which shade what they meet.
+    std::span<uint16_t> calls;
+    // Of each point, or none where no kernel shoots rays; a light's are those of the points it
+    // lights.
+    std::span<PointRays> rays;
+    bool goes_on = false;               // the rays that see the points may go on behind them
+    RayCollector* collector = nullptr;  // of rays that wait for those of other points
+
+    // Something is drawn at random for its points (FirstHits). A light's are those of the surface
+    // it lights.
+    void note_random() const {
+        const PicturePoints& seen = of_surface();
+        if (frame.insight.first) frame.insight.first->note_random(seen.look->index, seen.depth);
+    }
+};
+
+// Takes rows for the wanted columns that are still null.
+void want_columns(Grid& grid, std::span<const uint16_t> wanted);
+void want_triple(Grid& grid, uint16_t first);
+
+// Fills every non-null column from the hits.
+void gather(Grid& grid);
+
+// Cofactor of the linear part: takes normals along (docs/numerics.md#geometry), the mirror's sign
+// taken out; its largest entry 1, since squares of lengths are floats.
+mat3 normal_matrix(const dmat4& m, bool mirrored);
+
+}  // namespace kinora

@@ -1,0 +1,54 @@
+// runtime/picture/shading/hit_shader.h: hits grouped by look, shaded in dense grids
+// (docs/decisions.md#lanes-and-wavefronts).
+#pragma once
+
+#include <span>
+
+#include "runtime/picture/shading/transmission.h"
+#include "runtime/picture/shading/volumes.h"
+
+namespace kinora {
+
+// What gather wants of each hit: columns of all components, in the order of the results.
+struct HitOutputs {
+    std::span<const rsl::LoweredShader::GatherResult> wanted;
+    std::span<float* const> columns;  // by hit
+};
+
+class HitShader {
+  public:
+    HitShader(const ShadingFrame& frame, KernelRunner& kernels, LightRecords& lights,
+              Transmission& transmission, Volumes& volumes)
+        : frame_(frame),
+          kernels_(kernels),
+          lights_(lights),
+          transmission_(transmission),
+          shadows_(frame, transmission),
+          volumes_(volumes) {}
+
+    // The colours of hits of rays with that tag, with what volumes before them add. `outputs`:
+    // wanted beside Ci and Oi.
+    void shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
+               raytrace::ShadeResult& result, const HitOutputs* outputs = nullptr);
+    // Of the ends of rays that met nothing: the volumes they run through.
+    void shade_misses(const raytrace::HitBatch& ends, const RayTag& ray, ThreadMemory& memory,
+                      raytrace::ShadeResult& result);
+
+  private:
+    // One call of shade().
+    struct Call;
+    Grid& light_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points,
+                     LightShadows& shadows);
+    void collect(std::span<Grid* const> grids, RayCollector& rays);
+    void shade_grid(const Call& call, Grid& grid);
+    void count_dark(const Grid& grid, const raytrace::ShadeResult& result) const;
+
+    const ShadingFrame& frame_;
+    KernelRunner& kernels_;
+    LightRecords& lights_;
+    Transmission& transmission_;
+    ShadowRays shadows_;
+    Volumes& volumes_;
+};
+
+}  // namespace kinora

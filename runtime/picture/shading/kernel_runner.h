@@ -1,0 +1,65 @@
+// runtime/picture/shading/kernel_runner.h: runs kernels over grids and collects the faults they
+// report.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rsl/model/globals.h"
+#include "runtime/base/diagnostic.h"
+#include "runtime/picture/shading/grid.h"
+#include "runtime/picture/shading/shading_frame.h"
+
+namespace kinora {
+
+struct GridServices;
+
+class KernelRunner {
+  public:
+    // `services` answer the kernels' calls.
+    KernelRunner(const ShadingFrame& frame, const GridServices& services)
+        : frame_(frame), scene_(frame.scene), services_(services) {}
+
+    // Forgets all faults.
+    void begin_frame(size_t threads);
+    // One finding for each source line that reported a fault.
+    void report_faults(Diagnostics& diagnostics) const;
+
+    // Gives the grid what a kernel of its look takes, its columns still null. `ray`: of its hits.
+    void prepare(Grid& grid, const RayTag& ray) const;
+    // The accounts of the grid's points as they are before its kernel runs.
+    void start_accounts(Grid& grid) const;
+    // Runs the look's kernel for what its calls of services note; accounts and outputs are lost.
+    void run_noting(Grid& grid) const;
+    // Runs a kernel of the grid's look; its output rows, from the thread's arena.
+    std::span<float*> run(const BoundKernel& bound, Grid& grid);
+
+  private:
+    const ShadingFrame& frame_;
+    const Scene& scene_;
+    const GridServices& services_;
+    std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]
+};
+
+// Whether a kernel of the look calls services that count rays (PointRays).
+bool shoots_rays(const ShaderInstance& look);
+
+// The hits of one look, in their order.
+struct LookRun {
+    const ShaderInstance* look;
+    std::span<uint32_t> hits;
+    bool ascending;  // their numbers are
+};
+// All of a batch's, by the number of the look; from the arena. The cost does not depend on how many
+// looks a scene has, but where there are more hits than looks.
+std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
+                                      Arena& arena);
+
+// Memory for the colours of that many hits.
+raytrace::ShadeResult take_colors(Arena& arena, size_t count);
+
+// The three outputs of a kernel that a global is, null where it has none.
+void find_color(const jit::Kernel& kernel, std::span<float* const> out, rsl::Global id,
+                float* color[3]);
+
+}  // namespace kinora

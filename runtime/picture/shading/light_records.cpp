@@ -1,0 +1,606 @@
+// runtime/picture/shading/light_records.cpp: light kernels over the points of a grid.
+#include "runtime/picture/shading/light_records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "raytrace/hits.h"
+#include "runtime/base/stage_clock.h"
+#include "runtime/picture/columns/sixteen_points.h"
+#include "runtime/picture/lights/cone_samples.h"
+#include "runtime/picture/shading/grid_host.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/kernels/columns.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+namespace {
+
+// Columns a light kernel reads, from the points to be lit.
+std::span<float*> light_columns(const ShaderInstance& look, const Pose& pose,
+                                const LightSource& light, const LightPoints& at, Arena& arena) {
+    std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
+    std::fill(columns.begin(), columns.end(), nullptr);
+    vec3 origin(pose.view.camera_from_world * pose.nodes[light.node].world[3]);
+    auto view = [](const float* p) { return const_cast<float*>(p); };
+    for (uint16_t column : look.full.columns) {
+        if (columns[column]) continue;
+        if (column >= kColPs && column < kColPs + 3)
+            columns[column] = view(at.P[column - kColPs]);
+        else if (column >= kColNs && column < kColNs + 3)
+            columns[column] = view(at.N[column - kColNs]);
+        else if (column >= kColN && column < kColN + 3)
+            columns[column] = view(at.N[column - kColN]);
+        else if (column == kColRng && at.rng)
+            columns[column] = view(at.rng);
+        else {
+            columns[column] = arena.allocate_span<float>(padded(at.count)).data();
+            bool is_origin = column >= kColP && column < kColP + 3;
+            std::fill_n(columns[column], padded(at.count),
+                        is_origin ? origin[column - kColP] : 0.0f);
+        }
+    }
+    return columns;
+}
+
+// A light without an output `lit` is lit everywhere.
+const float* ones_column(Arena& arena, size_t count) {
+    std::span<float> column = arena.allocate_span<float>(padded(count));
+    std::fill(column.begin(), column.end(), jit::float_of(1));
+    return column.data();
+}
+
+// The grid's points as its kernel looks for lights. While LIGHTS_DARK counts what arrives on the
+// side that the eye sees, that side is not dropped.
+SeenPoints seen_points(const Grid& grid) {
+    constexpr uint8_t kSeen = rsl::kLitFacing | rsl::kLitFacingByN;
+    SeenPoints points;
+    points.count = grid.count();
+    points.sides = grid.look->lowered.lit_sides;
+    const bool counts = grid.pose.watch_dark > 0 && grid.depth == 0;
+    if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
+    for (size_t k = 0; k < 3; ++k) {
+        points.N[k] = grid.columns[kColN + k];
+        points.Ng[k] = grid.columns[kColNg + k];
+        points.I[k] = grid.columns[kColI + k];
+    }
+    return points;
+}
+
+const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs& statement,
+                             const LightBinding& binding) {
+    float* uniforms = arena.allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
+    uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
+    uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
+    uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.in(pose);
+    uniforms[rsl::kLightNonspecular] = binding.nonspecular.in(pose);
+    uniforms[rsl::kLightNumber] = jit::float_of(binding.light);
+    for (size_t m = 0; m < binding.known.size(); ++m)
+        uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
+    return uniforms;
+}
+
+uint32_t bits(float x) {
+    return uint32_t(jit::bits_of(x));
+}
+
+}  // namespace
+
+LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
+    : frame_(frame), kernels_(kernels), bindings_(frame.scene), area_lights_(frame, bindings_) {
+    for (size_t l = 0; l < frame.scene.lights.size(); ++l) {
+        every_.push_back(l);
+        for (const LightOutputs& statement : bindings_.statements(l)) {
+            record_count_ += samples_of(l, statement);
+            draws_samples_ |= statement.spread >= 0;
+        }
+        draws_samples_ |= area_lights_.find(l) != nullptr;
+        need_rng_ |= frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
+    }
+}
+
+size_t LightRecords::samples_of(size_t light, const LightOutputs& statement) const {
+    if (const AreaLight* area = area_lights_.find(light)) return area->samples;
+    return statement.spread >= 0 ? light_samples(frame_.scene, light) : 1;
+}
+
+void LightRecords::begin_frame(bool all) {
+    all_ = all;
+    area_lights_.begin_frame();
+    reaches_.resize(frame_.scene.lights.size());
+    for (size_t l = 0; l < reaches_.size(); ++l)
+        if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, frame_.pose, l);
+    find_present();
+}
+
+// By the box of the whole scene, so that the grids need not ask of each light again.
+void LightRecords::find_present() {
+    vec3 low, high;
+    frame_.pose.accel.bounds(low, high);
+    const dmat3 current(frame_.camera_from_accel);
+    const dvec3 half = 0.5 * (dvec3(high) - dvec3(low));
+    Sphere scene;
+    scene.center = current * (0.5 * (dvec3(high) + dvec3(low)) - dvec3(frame_.eye));
+    scene.radius = glm::length(half);
+    for (int k = 0; k < 3; ++k)
+        scene.half[k] = glm::dot(glm::abs(glm::transpose(current)[k]), half);
+    present_.clear();
+    for (size_t l = 0; l < reaches_.size(); ++l)
+        if (!reaches_[l].bounded() || reaches(reaches_[l], scene)) present_.push_back(l);
+}
+
+std::vector<size_t> LightRecords::light_of_records() const {
+    std::vector<size_t> lights;
+    for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
+        for (const LightOutputs& statement : bindings_.statements(l))
+            lights.insert(lights.end(), samples_of(l, statement), l);
+    }
+    return lights;
+}
+
+size_t LightRecords::most_points() const {
+    constexpr size_t kCacheBytes = 1 << 20, kRecordBytes = 7 * sizeof(float);  // L, Cl and lit
+    constexpr size_t kLeast = 64;
+    const size_t points = kCacheBytes / (kRecordBytes * std::max<size_t>(record_count_, 1));
+    return std::clamp(points / kLeast * kLeast, kLeast, kGridPoints);
+}
+
+void LightRecords::want_columns(Grid& grid) const {
+    want_triple(grid, kColP);
+    want_triple(grid, kColN);
+    grid.normals = grid.memory.arena.allocate_span<uint32_t>(padded(grid.count()));
+    constexpr uint16_t kRandom[] = {kColRng};
+    if (need_rng_) kinora::want_columns(grid, kRandom);
+}
+
+namespace {
+
+// From columns of hits to columns of the grid's points.
+void of_points(const Grid& grid, std::span<const float** const> columns, const uint32_t*& surface) {
+    Arena& arena = grid.memory.arena;
+    const size_t count = grid.count();
+    std::span<float*> to = arena.allocate_span<float*>(columns.size());
+    for (float*& row : to) row = arena.allocate_span<float>(padded(count)).data();
+    uint32_t* surfaces = arena.allocate_span<uint32_t>(padded(count)).data();
+    for (size_t first = 0; first < count; first += kColumnPoints) {
+        const SixteenPoints points(grid.points, first, count, grid.ascending);
+        float room[kColumnPoints];
+        for (size_t c = 0; c < columns.size(); ++c)
+            std::memcpy(to[c] + first, points.at(*columns[c], room), sizeof(room));
+        uint32_t rows[kColumnPoints];
+        std::memcpy(surfaces + first, points.at(surface, rows), sizeof(rows));
+    }
+    for (size_t c = 0; c < columns.size(); ++c) *columns[c] = to[c];
+    surface = surfaces;
+}
+
+}  // namespace
+
+void LightRecords::run(Grid& grid) {
+    StageScope stage(Stage::Lights);
+    LightPoints at;
+    at.count = grid.count();
+    for (size_t k = 0; k < 3; ++k) {
+        at.P[k] = grid.columns[kColP + k];
+        at.N[k] = grid.columns[kColN + k];
+        at.accel[k] = grid.hits.P[k];
+        at.error[k] = grid.hits.P_error[k];
+        at.Ng[k] = grid.hits.Ng[k];
+    }
+    at.surface = grid.hits.instance;
+    const float** columns[] = {&at.accel[0], &at.accel[1], &at.accel[2], &at.error[0], &at.error[1],
+                               &at.error[2], &at.Ng[0],    &at.Ng[1],    &at.Ng[2]};
+    // From the first of a vector on, columns of hits are columns of the points.
+    if (grid.dense && grid.points.front() % jit::kMaxLanes == 0) {
+        for (const float** column : columns) *column += grid.points[0];
+        at.surface += grid.points[0];
+    } else {
+        of_points(grid, columns, at.surface);
+    }
+    at.normals = grid.normals.data();
+    at.rng = grid.columns[kColRng];
+    if (draws_samples_) {
+        std::span<raytrace::SampleSeries> series =
+            grid.memory.arena.allocate_span<raytrace::SampleSeries>(at.count);
+        for (size_t i = 0; i < at.count; ++i)
+            series[i] = series_of(grid.hits, grid.points[i], frame_.seed);
+        at.series = series.data();
+    }
+    at.own = true;
+    grid.record_sets[0] = make_records(grid, at);
+}
+
+jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
+    Arena& arena = grid.memory.arena;
+    std::span<float> zeros = arena.allocate_span<float>(padded(at.count));
+    std::fill(zeros.begin(), zeros.end(), 0.0f);
+    at.zeros = zeros.data();
+    Making making{grid, at, arena.allocate_span<jit::Record>(record_count_),
+                  arena.allocate_span<SentLight>(record_count_)};
+    const Sphere lit = sphere_about(at.P, at.count);
+    // At other points, and within volumes, handles and light_of_records count all lights.
+    const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
+    for (size_t l : leaves_out ? present_ : every_) {
+        const bool seen = bindings_.binding(grid.look->index, l).seen;
+        const uint32_t only = frame_.insight.only_light;
+        const bool dark = (only != kNone && l != only) || !seen || !reaches(reaches_[l], lit);
+        if (dark && leaves_out) continue;
+        if (dark)
+            dark_records(making, l);
+        else
+            area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
+    }
+    shadow(making);
+    return {int32_t(making.record_count), making.records.data()};
+}
+
+void LightRecords::dark_records(Making& making, size_t l) const {
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    for (const LightOutputs& statement : bindings_.statements(l))
+        dark_records(making, statement, binding, making.record_count + samples_of(l, statement));
+}
+
+void LightRecords::dark_records(Making& making, const LightOutputs& statement,
+                                const LightBinding& binding, size_t end) const {
+    Arena& arena = making.grid.memory.arena;
+    std::span<const float*> columns =
+        arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
+    std::fill(columns.begin(), columns.end(), making.at.zeros - making.at.first);
+    const float* uniforms = record_uniforms(frame_.pose, arena, statement, binding);
+    while (making.record_count < end)
+        making.records[making.record_count++] = {columns.data(), uniforms};
+}
+
+void LightRecords::shadow(const Making& making) const {
+    Grid& grid = making.grid;
+    if (!grid.shadows) return;
+    std::span<const SentLight> sent = making.sent.first(making.sent_count);
+    Arena& arena = grid.memory.arena;
+    if (making.at.own) drop_behind(seen_points(grid), arena, sent);
+    drop_weak(float(frame_.quality.weak_lights), making.at.count, arena, sent);
+    for (const SentLight& light : sent)
+        if (light.casts) grid.shadows->cast(grid, making.at, light);
+}
+
+void LightRecords::shadow_sample(const Making& making, const SentLight& sent) const {
+    Grid& grid = making.grid;
+    if (!grid.shadows) return;
+    if (making.at.own) drop_behind(seen_points(grid), grid.memory.arena, {&sent, 1});
+    if (sent.casts) grid.shadows->cast(grid, making.at, sent);
+}
+
+// Of the lit points.
+std::span<PointRays> LightRecords::accounts(const Making& making) {
+    const std::span<PointRays> all = making.grid.rays;
+    return all.empty() ? all : all.subspan(making.at.first, making.at.count);
+}
+
+void LightRecords::plain_records(Making& making, size_t l) {
+    Grid& grid = making.grid;
+    const LightPoints& at = making.at;
+    const LightSource& light = frame_.scene.lights[l];
+    const ShaderInstance& look = *frame_.scene.shader_instances[light.look];
+    Arena& arena = grid.memory.arena;
+    Grid lit(frame_, grid.memory, grid.hits, grid.points.subspan(at.first, at.count), &look);
+    lit.depth = grid.depth;
+    lit.ray = grid.ray;
+    lit.shadows = grid.shadows;
+    lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
+    lit.lit = &grid;
+    lit.lit_first = at.first;
+    lit.rays = accounts(making);
+    lit.record_sets = grid.record_sets;
+    if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
+        lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
+        std::fill(lit.record_sets.begin(), lit.record_sets.end(), jit::RecordSet{});
+    }
+    lit.columns = light_columns(look, frame_.pose, light, at, arena);
+    if (look.lowered.draws_random) lit.note_random();
+    std::span<float*> out = kernels_.run(look.full, lit);
+    grid.memory.counters.light_points += at.count;
+    for (const LightOutputs& statement : bindings_.statements(l))
+        if (statement.spread >= 0)
+            cone_records(making, l, statement, out);
+        else
+            make_record(making, statement, bindings_.binding(grid.look->index, l), out, false,
+                        nullptr);
+}
+
+void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& statement,
+                                std::span<float* const> out) const {
+    const LightPoints& at = making.at;
+    Arena& arena = making.grid.memory.arena;
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    const size_t samples = samples_of(l, statement), end = making.record_count + samples;
+    const float* angle = out[size_t(statement.spread)];
+    const bool wide =
+        statement.L[0] >= 0 && std::any_of(angle, angle + at.count, [](float a) { return a != 0; });
+    if (wide)
+        making.grid.note_random();
+    else
+        make_record(making, statement, binding, out, false, nullptr);
+    std::span<float*> rows = arena.allocate_span<float*>(out.size());
+    SkyCones cones{at.count,         {}, angle, at.series, raytrace::hash(uint32_t(l), frame_.seed),
+                   uint32_t(samples)};
+    for (size_t c = 0; wide && c < 3; ++c) cones.axis[c] = out[size_t(statement.L[c])];
+    for (uint32_t first = 0; wide && first < samples; first += ConeSamples::kAtOnce) {
+        ConeSamples cone(cones, padded(at.count), arena);
+        cone.find(first);
+        for (size_t s = 0; s < std::min<size_t>(ConeSamples::kAtOnce, samples - first); ++s) {
+            std::copy(out.begin(), out.end(), rows.begin());
+            for (size_t c = 0; c < 3; ++c) {
+                rows[size_t(statement.L[c])] = cone.row(s, c);
+                if (statement.Cl[c] < 0) continue;
+                float* const share = arena.allocate_span<float>(padded(at.count)).data();
+                const float* whole = out[size_t(statement.Cl[c])];
+                for (size_t i = 0; i < padded(at.count); ++i) share[i] = whole[i] / float(samples);
+                rows[size_t(statement.Cl[c])] = share;
+            }
+            make_record(making, statement, binding, rows, true, nullptr);
+        }
+    }
+    // Records were counted before: those without light are dark.
+    if (making.record_count < end) dark_records(making, statement, binding, end);
+}
+
+void LightRecords::area_records(Making& making, size_t l) {
+    Grid& grid = making.grid;
+    const LightPoints& at = making.at;
+    const AreaLight& light = *area_lights_.find(l);
+    const ShaderInstance& look = *frame_.scene.shader_instances[frame_.scene.lights[l].look];
+    Arena& arena = grid.memory.arena;
+    std::span<uint32_t> points = arena.allocate_span<uint32_t>(at.count);
+    for (uint32_t i = 0; i < at.count; ++i) points[i] = i;
+    LightSamples samples(grid, at.first, at.count, light.surface);
+    Grid lit(frame_, grid.memory, samples.hits, points, &look);
+    kernels_.prepare(lit, grid.ray);
+    lit.rays = accounts(making);
+    lit.shadows = grid.shadows;
+    lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
+    if (lit.surface) {
+        lit.lit = &grid;
+        lit.lit_first = at.first;
+    }
+    if (look.lowered.gathers.empty()) lit.record_sets = grid.record_sets;
+    // The mesh's columns are gathered for each sample; those of the lit points stay.
+    auto of_point = [&](uint16_t c) -> const float* {
+        if (c >= kColPs && c < kColPs + 3) return at.P[c - kColPs];
+        if (c >= kColNs && c < kColNs + 3) return at.N[c - kColNs];
+        return c == kColRng ? at.rng : nullptr;
+    };
+    for (uint16_t column : look.full.columns)
+        if (!of_point(column)) kinora::want_columns(lit, {&column, 1});
+    std::span<float*> mesh = arena.allocate_span<float*>(lit.columns.size());
+    std::copy(lit.columns.begin(), lit.columns.end(), mesh.begin());
+    const LightBinding& binding = bindings_.binding(grid.look->index, l);
+    for (uint32_t k = 0; k < light.samples; ++k) {
+        area_lights_.choose(lit, at, light, k, samples);
+        std::copy(mesh.begin(), mesh.end(), lit.columns.begin());
+        gather(lit);
+        for (uint16_t column : look.full.columns)
+            if (const float* row = of_point(column)) lit.columns[column] = const_cast<float*>(row);
+        std::span<float*> out = kernels_.run(look.full, lit);
+        grid.memory.counters.light_points += at.count;
+        for (const LightOutputs& statement : bindings_.statements(l)) {
+            for (int output : statement.Cl)
+                for (size_t i = 0; output >= 0 && i < padded(at.count); ++i) {
+                    bool own = at.surface[std::min(i, at.count - 1)] == light.surface;
+                    float& Cl = out[size_t(output)][i];
+                    Cl = own || !light.has_area() ? 0.0f : Cl / float(light.samples);
+                }
+            make_record(making, statement, binding, out, true, &samples);
+        }
+    }
+}
+
+void LightRecords::make_record(Making& making, const LightOutputs& statement,
+                               const LightBinding& binding, std::span<float* const> out,
+                               bool sample, const LightSamples* samples) const {
+    const LightPoints& at = making.at;
+    Arena& arena = making.grid.memory.arena;
+    std::span<const float*> columns =
+        arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
+    std::fill(columns.begin(), columns.end(), at.zeros);
+    auto set = [&](size_t column, int output) {
+        if (output >= 0) columns[column] = out[size_t(output)];
+    };
+    for (size_t k = 0; k < 3; ++k) {
+        set(rsl::kLightL + k, statement.L[k]);
+        set(rsl::kLightCl + k, statement.Cl[k]);
+        set(rsl::kLightOl + k, statement.Ol[k]);
+    }
+    if (statement.lit < 0) columns[rsl::kLightLit] = ones_column(arena, at.count);
+    set(rsl::kLightLit, statement.lit);
+    for (size_t m = 0; m < binding.messages.size(); ++m)
+        set(rsl::kLightMessages + m, binding.messages[m]);
+    if (statement.kind != rsl::kLightAmbient && statement.L[0] >= 0) {
+        SentLight& sent = making.sent[making.sent_count];
+        sent = {};
+        sent.casts = statement.casts_shadow;
+        sent.solar = statement.kind == rsl::kLightSolar;
+        sent.lit = statement.lit < 0 ? nullptr : out[size_t(statement.lit)];
+        sent.samples = samples;
+        for (size_t k = 0; k < 3; ++k) {
+            sent.L[k] = out[size_t(statement.L[k])];
+            sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
+        }
+        const bool shines = sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
+        if (shines && sample)
+            shadow_sample(making, sent);
+        else
+            making.sent_count += shines;
+    }
+    // Columns are read at the grid's point, so those of a part of it start before it.
+    for (const float*& column : columns) column -= at.first;
+    making.records[making.record_count++] = {
+        columns.data(), record_uniforms(frame_.pose, arena, statement, binding)};
+}
+
+int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
+    // A part of the grid: one lane group at its own points. Records of a group that is done are
+    // let go, or a marching loop would keep them all.
+    Arena& arena = grid.memory.arena;
+    if (grid.record_group != call.first) {
+        if (grid.record_group >= 0) arena.release(grid.record_mark);
+        grid.record_mark = arena.mark();
+        grid.record_group = call.first;
+        grid.record_calls = 0;
+    }
+    uint32_t handle = grid.next_record_set;
+    grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
+    if (++grid.record_calls > kMostLightQuestions) {
+        grid.memory.counters.unlit += 1;
+        grid.record_sets[handle] = {};
+        return int32_t(handle);
+    }
+    LightPoints at;
+    at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
+    at.first = size_t(call.first);
+    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
+    float* rows[13];
+    for (float*& row : rows) row = arena.allocate_span<float>(jit::kMaxLanes).data();
+    for (size_t i = 0; i < jit::kMaxLanes; ++i) {
+        vec3 P(call.args[i], call.args[jit::kMaxLanes + i], call.args[2 * jit::kMaxLanes + i]);
+        if (!(call.mask >> i & 1)) P = vec3(0);
+        vec3 accel = accel_from_camera * P + frame_.eye;
+        // The point went through a rotation and a sum: gamma(4) of the magnitudes bounds that.
+        vec3 error =
+            (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(frame_.eye)) * 2.4e-7f;
+        for (int k = 0; k < 3; ++k) {
+            rows[k][i] = P[k];
+            rows[3 + k][i] = accel[k];
+            rows[6 + k][i] = error[k];
+            rows[9 + k][i] = 0;
+        }
+        // Each step of a march has numbers of its own.
+        uint32_t h = grid.points[std::min(size_t(call.first) + i, grid.count() - 1)];
+        rows[12][i] =
+            jit::float_of(int32_t(raytrace::hash(random_of(grid.hits, h, frame_.seed),
+                                                 raytrace::hash(bits(P.x), bits(P.y), bits(P.z)))));
+    }
+    at.rng = rows[12];
+    std::span<raytrace::SampleSeries> series =
+        arena.allocate_span<raytrace::SampleSeries>(jit::kMaxLanes);
+    for (size_t i = 0; i < jit::kMaxLanes; ++i) series[i] = {bits(rows[12][i])};
+    at.series = series.data();
+    std::span<uint32_t> surface = arena.allocate_span<uint32_t>(jit::kMaxLanes);
+    std::fill(surface.begin(), surface.end(), kNone);
+    at.surface = surface.data();
+    for (size_t k = 0; k < 3; ++k) {
+        at.P[k] = rows[k];
+        at.accel[k] = rows[3 + k];
+        at.error[k] = rows[6 + k];
+        at.N[k] = at.Ng[k] = rows[9 + k];
+    }
+    grid.record_sets[handle] = make_records(grid, at);
+    return int32_t(handle);
+}
+
+// Lights whose shaders send all of their light against where the light looks: most often shaders
+// that were written for a "shader" space that looks along -z.
+namespace {
+
+// Rings around the axis, before the light and behind it; cones may be narrow.
+constexpr double kRingDegrees[] = {0.5, 2, 5, 10, 20, 35, 55, 80};
+constexpr int kOnRing = 4;
+constexpr size_t kProbes = 2 * std::size(kRingDegrees) * kOnRing;
+static_assert(kProbes % jit::kMaxLanes == 0);
+
+// A point that is lit, in the light's space, as directions from it; at two distances.
+dvec3 probe(size_t k, double size) {
+    size_t ring = k / 2 / kOnRing;
+    double angle = radians(kRingDegrees[ring]),
+           turn = 2 * kPi * (double(k / 2 % kOnRing) + 0.3) / kOnRing;
+    double z = k % 2 ? -std::cos(angle) : std::cos(angle);
+    double distance = size * (k / 2 % 2 ? 1 : 0.1);
+    return distance * dvec3(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), z);
+}
+
+// Nobody reads what is printed here.
+class SilentHost : public UnlitHost {
+  public:
+    using UnlitHost::UnlitHost;
+    void print(const jit::ServiceCall&) override {}
+};
+
+// The probes through the light's kernel; a row for each output.
+std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& look, Arena& arena) {
+    const Scene& scene = frame.scene;
+    const BoundKernel& bound = look.full;
+    const jit::Kernel& kernel = bound.kernel();
+    dmat4 current = current_from_space(scene, frame.pose, "shader", look.space_owner());
+    dvec3 origin(current[3]);
+    auto new_row = [&] {
+        std::span<float> row = arena.allocate_span<float>(kProbes);
+        std::fill(row.begin(), row.end(), 0.0f);
+        return row.data();
+    };
+    auto value = [&](uint16_t column, dvec3 P) {
+        dvec3 N = glm::normalize(origin - P);
+        if (column >= kColPs && column < kColPs + 3) return float(P[column - kColPs]);
+        if (column >= kColNs && column < kColNs + 3) return float(N[column - kColNs]);
+        if (column >= kColN && column < kColN + 3) return float(N[column - kColN]);
+        if (column >= kColP && column < kColP + 3) return float(origin[column - kColP]);
+        return 0.0f;
+    };
+    std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
+    for (uint16_t column : bound.columns) {
+        float* row = columns[column] = new_row();
+        for (size_t k = 0; k < kProbes; ++k)
+            row[k] = value(column, dvec3(current * dvec4(probe(k, scene.size), 1)));
+    }
+    std::span<float*> out = take_outputs(kernel, kProbes, arena);
+    std::span<jit::RecordSet> records = arena.allocate_span<jit::RecordSet>(kRecordSets);
+    std::fill(records.begin(), records.end(), jit::RecordSet{});
+    std::span<uint8_t> faults = arena.allocate_span<uint8_t>(kernel.fault_sites.size());
+    SilentHost host(scene, frame.pose, look);
+    bound.run({.count = kProbes,
+               .frame = frame.instances[look.index].full,
+               .columns = columns,
+               .out = out,
+               .faults = faults,
+               .record_sets = records,
+               .host = host},
+              arena);
+    return out;
+}
+
+}  // namespace
+
+void LightRecords::report_aims(Diagnostics& diagnostics) const {
+    const Scene& scene = frame_.scene;
+    for (size_t l = 0; l < scene.lights.size(); ++l) {
+        const LightSource& light = scene.lights[l];
+        const ShaderInstance& look = *scene.shader_instances[light.look];
+        // A shader that does not read its space has another aim, as the default lights have.
+        bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
+        if (look.area_light || !aims || !bindings_.directed(l)) continue;
+        Arena arena;
+        std::span<float*> out = run_probes(frame_, look, arena);
+        dvec3 forward(current_from_space(scene, frame_.pose, "shader", look.space_owner())[2]);
+        bool before = false, behind = false;
+        for (const LightOutputs& statement : bindings_.statements(l)) {
+            if (statement.kind == rsl::kLightAmbient || statement.L[0] < 0) continue;
+            for (size_t k = 0; k < kProbes; ++k) {
+                auto at = [&](int output) { return output < 0 ? 0.0f : out[size_t(output)][k]; };
+                bool lit = statement.lit < 0 || jit::bits_of(at(statement.lit)) != 0;
+                float most =
+                    std::max({at(statement.Cl[0]), at(statement.Cl[1]), at(statement.Cl[2])});
+                if (!lit || !(most > 0)) continue;
+                dvec3 to_light(at(statement.L[0]), at(statement.L[1]), at(statement.L[2]));
+                (glm::dot(to_light, forward) > 0 ? behind : before) = true;
+            }
+        }
+        const LightDefinition& definition = scene.description->lights[light.definition];
+        if (behind && !before)
+            diagnostics.report(Code::LIGHT_AIMS_BACK, definition.where,
+                               definition.id.empty() ? definition.name : definition.id);
+    }
+}
+
+}  // namespace kinora

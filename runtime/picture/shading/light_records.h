@@ -1,0 +1,86 @@
+// runtime/picture/shading/light_records.h: lights run once for a grid; their answers become records
+// that surface kernels replay (docs/decisions.md#lights-run-once).
+#pragma once
+
+#include "runtime/picture/lights/unseen_light.h"
+#include "runtime/picture/shading/area_light.h"
+#include "runtime/picture/shading/kernel_runner.h"
+
+namespace kinora {
+
+// What takes light away on its way.
+class LightShadows {
+  public:
+    virtual ~LightShadows() = default;
+    // Leaves in Cl what arrives at each point, at once or when the caller says so.
+    virtual void cast(const Grid& grid, const LightPoints& at, const SentLight& light) = 0;
+};
+
+class LightRecords {
+  public:
+    LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
+    // `all`: records of lights that reach no point are made too, as light_of_records has them.
+    void begin_frame(bool all);
+    // Whether some loop of the scene's shaders asks for that one of Scene::lights.
+    bool asked(size_t light) const { return bindings_.asked(light); }
+    // Names the lights that shine only against where they look.
+    void report_aims(Diagnostics& diagnostics) const;
+
+    // Which of Scene::lights each record of a set is of.
+    std::vector<size_t> light_of_records() const;
+
+    // Of a grid: fewer where there are many lights, so that all their records stay in the cache.
+    size_t most_points() const;
+    // What every grid with lights needs for them.
+    void want_columns(Grid& grid) const;
+    // The records of a grid's own points, as its set 0. Grid::shadows casts their shadows.
+    void run(Grid& grid);
+    // The service `lights`: records at other points than the grid's own; their handle.
+    int32_t at(Grid& grid, const jit::ServiceCall& call);
+
+  private:
+    // Records of a grid's points, and what of them comes from somewhere.
+    struct Making {
+        Grid& grid;
+        const LightPoints& at;
+        std::span<jit::Record> records;
+        std::span<SentLight> sent;
+        size_t record_count = 0, sent_count = 0;
+    };
+    jit::RecordSet make_records(Grid& grid, LightPoints at);
+    void find_present();
+    static std::span<PointRays> accounts(const Making& making);
+    // Run a light's kernel.
+    void plain_records(Making& making, size_t light);
+    void area_records(Making& making, size_t light);
+    // Records of solar with an angle: a sample of its cone each, with its share of the light.
+    void cone_records(Making& making, size_t light, const LightOutputs& statement,
+                      std::span<float* const> out) const;
+    // The most that a statement of the light makes at a time.
+    size_t samples_of(size_t light, const LightOutputs& statement) const;
+    // Of a light that reaches none of the points.
+    void dark_records(Making& making, size_t light) const;
+    // Up to record `end`.
+    void dark_records(Making& making, const LightOutputs& statement, const LightBinding& binding,
+                      size_t end) const;
+    // What is sent of it is shadowed at once where it is one `sample` of several.
+    void make_record(Making& making, const LightOutputs& statement, const LightBinding& binding,
+                     std::span<float* const> out, bool sample, const LightSamples* samples) const;
+    // Leaves in the colours what arrives. Of a light on geometry at once: its sample goes with it.
+    void shadow(const Making& making) const;
+    void shadow_sample(const Making& making, const SentLight& sent) const;
+
+    const ShadingFrame& frame_;
+    KernelRunner& kernels_;
+    LightBindings bindings_;
+    AreaLights area_lights_;
+    std::vector<LightReach> reaches_;  // of each light, in this frame
+    std::vector<size_t> every_;        // light
+    std::vector<size_t> present_;      // those whose light may reach some surface in this frame
+    bool all_ = false;
+    size_t record_count_ = 0;     // of one run
+    bool need_rng_ = false;       // some light's kernel does
+    bool draws_samples_ = false;  // for some light
+};
+
+}  // namespace kinora

@@ -1,0 +1,212 @@
+// runtime/picture/shading/shading.cpp: the objects that shade, and the course of a frame.
+#include "runtime/picture/shading/shading.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "runtime/base/parallel.h"
+#include "runtime/picture/shading/bake.h"
+#include "runtime/picture/shading/grid_host.h"
+#include "runtime/picture/shading/hit_shader.h"
+#include "runtime/picture/shading/imager.h"
+#include "runtime/picture/shading/nested_rays.h"
+#include "runtime/picture/shading/print.h"
+#include "runtime/picture/shading/ray_services.h"
+#include "runtime/picture/shading/transmission.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+void ShadingCounters::operator+=(const ShadingCounters& o) {
+    trace += o.trace;
+    points += o.points;
+    light_points += o.light_points;
+    opacity_points += o.opacity_points;
+    columns += o.columns;
+    too_deep += o.too_deep;
+    unlit += o.unlit;
+    out_of_rays += o.out_of_rays;
+    kernel_points += o.kernel_points;
+    kernel_lanes += o.kernel_lanes;
+    seen += o.seen;
+    dark += o.dark;
+}
+
+// Each object is made of those before it. Kernels alone lead back up: they call services.
+struct Shading::Objects {
+    Objects(const Scene& scene, const Pose& pose) : frame{scene, scene.options.quality, pose} {}
+
+    ShadingFrame frame;
+    ThreadMemories threads;
+    KernelRunner kernels{frame, services};
+    LightRecords lights{frame, kernels};
+    Volumes volumes{frame, kernels, lights};
+    Transmission transmission{frame, kernels, lights, volumes};
+    HitShader hits{frame, kernels, lights, transmission, volumes};
+    NestedRays nested{frame, hits};
+    RayServices rays{frame, nested, transmission};
+    GatherRays gathers{frame, hits};
+    Imager imager{frame, threads, kernels};
+    Prints prints;
+    Bakes bakes{frame.scene, frame.pose};
+    GridServices services{lights, rays, gathers, prints, bakes};
+    bool aims_reported = false;
+    // What the scene's shaders need of all frames: these do not look at each of them for it.
+    std::vector<bool> looks_run;  // by look: see looks_that_run()
+    // The others run once: volumes ask all lights, and see what those held then.
+    bool all_ran = false;
+    bool reads_footprints = false;
+    bool fills_space = false;  // an atmosphere or an exterior
+
+    ShadingCounters counted() const {  // by all threads, in this frame
+        ShadingCounters total;
+        for (const auto& thread : threads) total += thread->counters;
+        return total;
+    }
+};
+
+namespace {
+
+// Looks that run in a frame: all but those of lights that no shader asks for.
+std::vector<bool> looks_that_run(const Scene& scene, const LightRecords& lights) {
+    std::vector<bool> run(scene.shader_instances.size(), true);
+    for (const LightSource& light : scene.lights) run[light.look] = false;
+    for (size_t l = 0; l < scene.lights.size(); ++l)
+        if (lights.asked(l)) run[scene.lights[l].look] = true;
+    return run;
+}
+
+}  // namespace
+
+Shading::Shading(const Scene& scene, const Pose& pose) {
+    objects_ = std::make_unique<Objects>(scene, pose);
+    const auto& looks = scene.shader_instances;
+    ShadingFrame& frame = objects_->frame;
+    frame.instances.resize(looks.size());
+    frame.any_transparent = std::ranges::any_of(looks, [](const auto& look) {
+        return look->kind == ShaderInstanceKind::Surface && look->opacity.has_value();
+    });
+    frame.lights_shoot = std::ranges::any_of(
+        scene.lights, [&](const LightSource& light) { return shoots_rays(*looks[light.look]); });
+    objects_->looks_run = looks_that_run(scene, objects_->lights);
+    objects_->reads_footprints = kinora::reads_footprints(scene);
+    objects_->fills_space =
+        scene.atmosphere != kNone ||
+        std::ranges::any_of(looks, [](const auto& look) { return look->exterior; });
+}
+Shading::~Shading() = default;
+
+namespace {
+
+// Brings the looks that run, or all, to the pose's time.
+void update_looks(ShadingFrame& frame, const std::vector<bool>& run, bool all) {
+    FrameContext context{.scene = frame.scene, .pose = frame.pose, .stop = frame.stop};
+    for (size_t l = 0; l < run.size(); ++l)
+        if (all || run[l]) frame.scene.shader_instances[l]->update(context, frame.instances[l]);
+}
+
+void set_view(ShadingFrame& frame) {
+    const Scene& scene = frame.scene;
+    const raytrace::Camera& view = frame.pose.view;
+    frame.camera_from_accel = mat3(glm::transpose(dmat3(view.right, view.up, view.forward)));
+    frame.eye = vec3(view.eye);
+    const CameraSource& camera = scene.cameras[frame.pose.camera];
+    bool has_end = scene.description->cameras[camera.definition].zfar.present();
+    frame.far_distance = has_end ? float(view.zfar) : float(glm::length(view.eye) + scene.size);
+}
+
+// du and dv are the footprint's size; bake3d takes it for points without a radius.
+bool reads_footprints(const ShaderInstance& look) {
+    static const jit::ServiceFn bake = find_service("bake3d");
+    auto reads = [](const BoundKernel& kernel) {
+        return std::ranges::any_of(kernel.columns,
+                                   [](uint16_t c) { return c == kColDu || c == kColDv; }) ||
+               std::ranges::count(kernel.services, bake) > 0;
+    };
+    return reads(look.full) || (look.opacity && reads(*look.opacity));
+}
+
+}  // namespace
+
+bool reads_footprints(const Scene& scene) {
+    return std::ranges::any_of(scene.shader_instances,
+                               [](const auto& look) { return reads_footprints(*look); });
+}
+
+void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
+    ShadingFrame& frame = objects_->frame;
+    ThreadMemories& threads = objects_->threads;
+    frame.seed = seed;
+    frame.max_layers = max_layers;
+    while (threads.size() < size_t(thread_count()))
+        threads.push_back(std::make_unique<ThreadMemory>(threads.size()));
+    frame.footprints = all_inputs || objects_->reads_footprints;
+    for (auto& thread : threads) {
+        thread->counters = {};
+        thread->footprints = frame.footprints;
+    }
+    objects_->kernels.begin_frame(threads.size());
+    objects_->gathers.begin_frame(threads.size());
+    objects_->prints.begin_frame(threads.size());
+    objects_->bakes.begin_frame(threads.size());
+    const bool all = !std::exchange(objects_->all_ran, true) || all_inputs;
+    update_looks(frame, objects_->looks_run, all);
+    set_view(frame);
+    objects_->lights.begin_frame(all_inputs);
+    frame.miss_distance = objects_->fills_space ? frame.far_distance : 0.0f;
+}
+
+void Shading::stop_by(const std::atomic<int>* flag) {
+    objects_->frame.stop = flag;
+}
+void Shading::show(const ShadingInsight& insight) {
+    objects_->frame.insight = insight;
+}
+bool Shading::stopped() const {
+    return objects_->frame.stopped();
+}
+
+ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
+    objects_->prints.flush(objects_->frame.scene, diagnostics);
+    objects_->bakes.flush(whole, diagnostics);
+    objects_->kernels.report_faults(diagnostics);
+    if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
+    objects_->frame.insight = {};  // what it fills need not be there any more
+    return objects_->counted();
+}
+
+ShadingCounters Shading::drop_frame(Diagnostics& diagnostics) {
+    objects_->prints.drop();
+    objects_->bakes.flush(false, diagnostics);
+    objects_->frame.insight = {};
+    return objects_->counted();
+}
+
+void Shading::shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) {
+    objects_->hits.shade(hits, {}, *objects_->threads[size_t(thread)], result);
+}
+
+bool Shading::reads_footprints() const {
+    return objects_->frame.footprints;
+}
+
+float Shading::miss_distance() const {
+    return objects_->frame.miss_distance;
+}
+
+void Shading::shade_misses(const raytrace::HitBatch& ends, int thread,
+                           raytrace::ShadeResult& result) {
+    objects_->hits.shade_misses(ends, {}, *objects_->threads[size_t(thread)], result);
+}
+
+uint32_t Shading::medium_behind(const raytrace::HitBatch& hits, size_t k) const {
+    return kinora::medium_behind(objects_->frame.scene, hits, k);
+}
+
+size_t Shading::run_imager(raytrace::Film& film, raytrace::NanPolicy nan) {
+    return objects_->imager.run(film, nan);
+}
+
+}  // namespace kinora

@@ -1,0 +1,33 @@
+// runtime/scene/build/area_lights.cpp: surfaces that shine.
+#include "runtime/scene/build/area_lights.h"
+
+#include "runtime/scene/build/instances/material_instance.h"
+
+namespace kinora {
+
+bool add_area_lights(Scene& scene, std::span<const SurfaceUse> uses) {
+    SceneDescription& description = *scene.description;
+    size_t before = scene.lights.size();
+    for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+        const MaterialUse* use = uses[s].material;
+        if (!use || use->material == kNone) continue;
+        const MaterialDefinition& material = description.materials[use->material];
+        std::vector<ShaderUse> lights = material.lights;
+        std::string key;  // each surface is a light of its own
+        apply_binds(description, use, lights, key);
+        for (ShaderUse& light : lights) {
+            LightDefinition definition;
+            definition.id = material.id;
+            definition.name = material.name;
+            definition.shader = std::move(light);
+            definition.shadows = material.light_shadows;
+            definition.samples = material.light_samples;
+            description.lights.push_back(std::move(definition));
+            scene.lights.push_back({uint32_t(description.lights.size() - 1),
+                                    scene.shapes[scene.surfaces[s].shape].node, kNone, s});
+        }
+    }
+    return scene.lights.size() > before;
+}
+
+}  // namespace kinora

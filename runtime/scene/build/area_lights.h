@@ -1,0 +1,15 @@
+// runtime/scene/build/area_lights.h: surfaces that shine.
+#pragma once
+
+#include <span>
+
+#include "runtime/scene/build/shapes/surface_use.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+// A light for each surface and LIGHT shader of its material. Whether there is any. Writes
+// Scene::lights and the description's.
+bool add_area_lights(Scene& scene, std::span<const SurfaceUse> uses);
+
+}  // namespace kinora

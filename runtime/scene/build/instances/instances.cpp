@@ -1,0 +1,77 @@
+// runtime/scene/build/instances/instances.cpp: the shader instances of a scene.
+#include "runtime/scene/build/instances/instances.h"
+
+#include <algorithm>
+
+#include "runtime/scene/build/instances/imager.h"
+#include "runtime/scene/build/instances/light_instances.h"
+#include "runtime/scene/build/instances/output_planes.h"
+#include "runtime/scene/build/instances/surface_instances.h"
+
+namespace kinora {
+
+namespace {
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+}
+
+// Outputs that gather statements read of what they hit.
+std::vector<std::string> gathered_outputs(const Scene& scene) {
+    std::vector<std::string> result;
+    for (const auto& instance : scene.shader_instances)
+        for (const ShaderUse& layer : instance->layers)
+            for (const std::string& name : rsl::gathered_parameters(*layer.shader))
+                add_once(result, name);
+    return result;
+}
+
+// Light parameters that surfaces read.
+std::vector<std::string> light_messages(const Scene& scene) {
+    std::vector<std::string> messages;
+    for (const auto& instance : scene.shader_instances)
+        for (const std::string& message : instance->lowered.light_messages)
+            add_once(messages, message);
+    return messages;
+}
+
+// Those that are not lights.
+bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompiler& compiler) {
+    ShaderInstanceOptions of_surfaces;
+    of_surfaces.aovs = outputs.parameters();
+    of_surfaces.gathered = gathered_outputs(scene);
+    bool ok = true;
+    for (auto& instance : scene.shader_instances) {
+        bool surface = instance->kind == ShaderInstanceKind::Surface;
+        bool compiled =
+            compiler.compile(*instance, surface ? of_surfaces : ShaderInstanceOptions());
+        if (compiled) bind_planes(scene.outputs, *instance);
+        ok &= compiled;
+    }
+    return ok;
+}
+
+}  // namespace
+
+bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& diagnostics) {
+    InstanceCompiler compiler(scene, diagnostics);
+    VertexInstances vertices(scene, compiler);
+    VolumeInstances volumes(scene, diagnostics);
+    SurfaceInstances surfaces(scene, vertices, volumes, diagnostics);
+    for (size_t s = 0; s < scene.surfaces.size(); ++s) surfaces.add(scene.surfaces[s], uses[s]);
+    add_atmosphere(scene);
+    OutputPlanes outputs(scene, diagnostics);
+    add_imager(scene, outputs.parameters());
+    bool compiled = compile_instances(scene, outputs, compiler);
+    bool lit = add_light_instances(scene, compiler, light_messages(scene));
+    for (size_t l = 0; l < scene.shader_instances.size(); ++l)
+        scene.shader_instances[l]->index = uint32_t(l);
+    return vertices.all_compiled() && compiled && lit;
+}
+
+bool add_light_instances(Scene& scene, Diagnostics& diagnostics) {
+    InstanceCompiler compiler(scene, diagnostics);
+    return add_light_instances(scene, compiler, light_messages(scene));
+}
+
+}  // namespace kinora

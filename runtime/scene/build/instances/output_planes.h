@@ -1,0 +1,33 @@
+// runtime/scene/build/instances/output_planes.h: the planes that surfaces' output parameters fill.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "runtime/scene/scene.h"
+#include "runtime/scene/shaders/shader_instance.h"
+
+namespace kinora {
+
+// Writes Scene::outputs.
+class OutputPlanes {
+  public:
+    // Planes that the options want, then those that the imager has parameters of. The scene has the
+    // instances of its surfaces.
+    OutputPlanes(Scene& scene, Diagnostics& diagnostics);
+
+    // The output parameters behind the planes.
+    const std::vector<std::string>& parameters() const { return parameters_; }
+
+  private:
+    bool add(const std::string& parameter, bool in_file);
+
+    Scene& scene_;
+    std::vector<std::string> parameters_;
+};
+
+// Where a compiled instance of a surface has the planes among its outputs.
+void bind_planes(std::span<const OutputPlane> planes, ShaderInstance& instance);
+
+}  // namespace kinora

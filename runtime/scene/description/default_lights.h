@@ -1,0 +1,14 @@
+// runtime/scene/description/default_lights.h: what the lights are called that scenes without any
+// get.
+#pragma once
+
+namespace kinora {
+
+inline constexpr const char* kKeyLight = "default key light";
+inline constexpr const char* kFillLight = "default fill light";
+inline constexpr const char* kRimLight = "default rim light";
+inline constexpr const char* kGreyWorld = "grey world";
+// The node that carries the first three.
+inline constexpr const char* kDefaultLightNode = "default light";
+
+}  // namespace kinora
