@@ -99,7 +99,7 @@ class Gltf(ProgramTest):
         result = render(scene, "-o", self.folder / "x.png", "--frames", "1")
         self.assertEqual(result.code, 3)
         self.assertIn("missing.bin", result.err)
-        self.assertIn("GLTF_INVALID", result.err)
+        self.assertIn("GLTF_BUFFER_FILE", result.err)
         tree["extensionsRequired"] = ["KHR_draco_mesh_compression"]
         scene.write_text(json.dumps(tree))
         result = render(scene, "-o", self.folder / "x.png", "--frames", "1")

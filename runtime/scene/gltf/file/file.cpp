@@ -221,6 +221,23 @@ void report_indices(const GltfFile& file, const GltfIndices& indices, Diagnostic
                            indices.fault_count - indices.faults.size());
 }
 
+// False, with a finding each (the first hundred), where files of buffers are missing.
+bool has_buffer_files(const GltfFile& file, std::span<const GltfBuffer> buffers,
+                      Diagnostics& diagnostics) {
+    size_t missing = 0;
+    for (size_t b = 0; b < buffers.size() && missing < kMaxGltfFindings; ++b) {
+        std::error_code code;
+        if (buffers[b].uri.empty() || fs::exists(gltf_path(file, buffers[b].uri), code)) continue;
+        const std::string pointer = fmt::format("/buffers/{}/uri", b);
+        diagnostics
+            .report(Code::GLTF_BUFFER_FILE, gltf_location(file, pointer),
+                    percent_decode(buffers[b].uri), b)
+            .id_path = pointer;
+        ++missing;
+    }
+    return missing == 0;
+}
+
 }  // namespace
 
 std::string gltf_path(const GltfFile& file, const std::string& uri) {
@@ -296,8 +313,10 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
         return std::nullopt;
     }
     report_indices(file, indices, diagnostics);
+    const std::vector<GltfBuffer> buffers = gltf_buffers(file.json);
+    if (!has_buffer_files(file, buffers, diagnostics)) return std::nullopt;
     Guard guard{options, diagnostics, file, {}};
-    for (const GltfBuffer& buffer : gltf_buffers(file.json))
+    for (const GltfBuffer& buffer : buffers)
         if (!buffer.uri.empty()) guard.sizes[gltf_path(file, buffer.uri)] = buffer.bytes;
     // As it stands in `bytes`, a .glb's among its other chunks.
     size_t begin = size_t(json.data() - reinterpret_cast<const char*>(bytes.data()));

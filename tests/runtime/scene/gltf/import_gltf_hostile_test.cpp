@@ -149,6 +149,9 @@ TEST(GltfHostile, WhatMakesNoSceneIsRefusedWithItsReason) {
     packed["extensionsRequired"] = {"EXT_meshopt_compression"};
     refused(packed.dump(), ".gltf", "GLTF_EXTENSION_REQUIRED", "EXT_meshopt_compression");
     EXPECT_EQ(described(packed.dump(), ".gltf")->count("GLTF_INVALID"), 0);
+    json apart = whole_scene().json;
+    apart["buffers"] = {{{"byteLength", 100000}, {"uri", "gone%20away.bin"}}};
+    refused(apart.dump(), ".gltf", "GLTF_BUFFER_FILE", "'gone away.bin' of buffer 0 is not there");
     const char* pointer =
         "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 335626\n";
     refused(pointer, ".glb", "GLTF_INVALID", "Git LFS pointer");
