@@ -3,7 +3,8 @@
 
 A room is a folder with a target. Each source file belongs to the longest room above it. It may
 include its own room and those that the room's CMake line names, no more: a name there is a line of
-the architecture. Rooms have no cycle and list at most 40 files of code. Private headers (*_p.h) stay
+the architecture. Rooms have no cycle and list at most 40 files of code. No part of the runtime includes
+or links a later one. Private headers (*_p.h) stay
 in their top-level folder, its tests, the fuzzers and the benchmarks; packages that stand behind one
 file are included there alone.
 """
@@ -19,7 +20,9 @@ ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).
 SOURCE_FOLDERS = ("runtime", "collada", "rsl", "jit", "anim", "skin", "raytrace", "tests")
 LEAVES = ("jit", "anim", "skin", "collada", "raytrace")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]', re.M)
-
+# The parts of the runtime, each above those before it.
+PARTS = ("runtime/base", "runtime/scene", "runtime/picture", "runtime/kinora", "runtime/player",
+         "runtime/programs")
 MOST_FILES = 40
 
 # Packages behind few files: header pattern -> files that may.
@@ -129,6 +132,18 @@ def library_of(folder):
     return "/".join(folder.split("/")[:2 if folder.startswith("runtime/programs") else 1])
 
 
+def height(folder):
+    """The number of a runtime folder's part; -1 of the other libraries."""
+    part = "/".join(folder.split("/")[:2])
+    return PARTS.index(part) if part in PARTS else -1
+
+
+def is_above(folder, other):
+    """Whether a folder belongs to a later part of the runtime than the other; of libraries that are
+    no part of it, all but the base is above."""
+    return height(folder) > max(height(other), 0)
+
+
 def folder_of(path, folders):
     """The longest target folder above a file, "" if there is none."""
     fits = [f for f in folders if path.startswith(f + "/")]
@@ -172,6 +187,8 @@ def check_includes(path, text, rules):
             faults.append(where + f"{header} is private to {library}")
         if not is_test and folder and own and folder not in rules[own]:
             faults.append(where + f"{own} does not name {folder} in CMake, but includes {header}")
+        if not is_test and own and is_above(folder, own):
+            faults.append(where + f"{header} is of a part above {own}")
     return faults, count
 
 
@@ -201,6 +218,11 @@ def test_cases(rules):
     yield "runtime/base includes no other folder", sorted(base - {"runtime/base"})
     yield "rooms have no cycle", [f"{room} reaches itself" for room in sorted(rules)
                                   if room in reachable(room, rules)]
+    yield "no part of the runtime links one above it", [
+        f"{room} names {other}" for room in sorted(rules) for other in sorted(rules[room])
+        if is_above(other, room)]
+    yield "every room of the runtime belongs to a part", [
+        room for room in sorted(rules) if room.startswith("runtime/") and height(room) < 0]
     leaves = []
     for room in rules:
         strangers = {library_of(r) for r in reachable(room, rules)} - {library_of(room), "runtime"}
@@ -233,6 +255,9 @@ def self_check(rules):
         ("runtime/picture/frame/x.cpp", "#include <asmjit/x86.h>\n", "only by"),
         ("raytrace/film.cpp", "#include <embree3/rtcore.h>\n", "only by"),
         ("jit/ir/x.cpp", '#include "ir.h"\n', "not a path"),
+        ("runtime/scene/x.cpp", '#include "runtime/picture/frame/frame.h"\n', "a part above"),
+        ("runtime/picture/frame/x.cpp", '#include "runtime/player/player.h"\n', "a part above"),
+        ("rsl/lower/x.cpp", '#include "runtime/scene/scene.h"\n', "a part above"),
     ]
     faults = []
     for path, text, expected in wrong:

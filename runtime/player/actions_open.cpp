@@ -114,7 +114,7 @@ CommandResult action_open(PlayerCore& core, const Arguments& a) {
         if (!opened) return refused(error, 1);
         opened->request.threads = core.request.threads;
         opened->request.target = core.request.target;
-        opened->request.findings = core.request.findings;
+        opened->request.strict = core.request.strict;
         core.open(opened->request, std::move(opened->session));
         return {};
     }

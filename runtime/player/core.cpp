@@ -166,7 +166,7 @@ void PlayerCore::take_scene(std::unique_ptr<MadeScene> made) {
     } else {
         scene_findings = made->findings;
         take_text(*made);
-        exit_code = made->exit_code;
+        error = made->error;
     }
     if (!made->files.empty()) watch.watch(files = made->files);
     if (made->swapped) return take_swap(*made);

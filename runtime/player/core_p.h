@@ -37,7 +37,7 @@ struct PlayerCore {
     std::shared_ptr<const Picture> kept;
     std::optional<Session> session;  // to be taken up when its scene is there
     dvec3 follow_from{0.0};
-    int exit_code = 0;
+    SceneError error = SceneError::None;  // why the last scene could not be made
     std::ofstream record;
     double since_recorded = 0;  // seconds
     std::string taken_camera;   // as a picture showed it, for the record: `stand`'s text

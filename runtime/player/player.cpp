@@ -173,8 +173,8 @@ uint64_t Player::frames_rendered() const {
 MakerCounts Player::made() const {
     return core_->maker.counts();
 }
-int Player::exit_code() const {
-    return core_->exit_code;
+SceneError Player::error() const {
+    return core_->error;
 }
 
 bool Player::wait_loaded(double seconds) {

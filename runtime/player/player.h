@@ -12,13 +12,14 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/kinora/scene_error.h"
+#include "runtime/kinora/scene_request.h"
 #include "runtime/player/commands.h"
 #include "runtime/player/picture/picture.h"
 #include "runtime/player/scene_info.h"
 #include "runtime/player/session/session.h"
 #include "runtime/player/shader_document.h"
 #include "runtime/player/state.h"
-#include "runtime/programs/open/scene_request.h"
 
 namespace kinora {
 
@@ -107,8 +108,7 @@ class Player {
     // False where the file cannot be written.
     bool record_to(const std::string& file);
 
-    // kinora-render's, where the scene could not be shown.
-    int exit_code() const;
+    SceneError error() const;  // why the last scene could not be shown
 
   private:
     std::unique_ptr<PlayerCore> core_;

@@ -9,7 +9,6 @@
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/picture/frame/frame.h"
-#include "runtime/programs/common/exit_codes.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/texture.h"
 #include "runtime/scene/images/texture_store.h"
@@ -193,7 +192,7 @@ void SceneMaker::make(const Order& order, MadeScene& made) {
     } catch (const std::bad_alloc&) {
         made.shown.reset();
         swapper_.reset();  // it may be that of a scene that is not shown
-        made.exit_code = kExitRetry;
+        made.error = SceneError::Memory;
         made.findings.push_back(plain_finding("MEMORY", "there is not enough memory"));
     }
     auto found = take_findings(*made.diagnostics);
@@ -202,9 +201,8 @@ void SceneMaker::make(const Order& order, MadeScene& made) {
 
 bool SceneMaker::read(const SceneRequest& request, MadeScene& made) {
     Diagnostics& diagnostics = *made.diagnostics;
-    diagnostics.judge(request.findings.judgement());
-    if (request.findings.strict) diagnostics.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
-    made.exit_code = kExitUnreadable;
+    judge_by(request, diagnostics);
+    made.error = SceneError::Unreadable;
     std::optional<ImportedScene> imported = import_requested(request, diagnostics);
     read_.files.clear();
     for (FileId f = 0; f < diagnostics.files.count(); ++f)
@@ -212,20 +210,20 @@ bool SceneMaker::read(const SceneRequest& request, MadeScene& made) {
     made.files = read_.files;
     if (!imported) return false;
     if (!imported->clip_known) {
-        made.exit_code = kExitUsage;
+        made.error = SceneError::Request;
         made.findings.push_back(
             plain_finding("CLIP_UNKNOWN", "the scene has no clip '" + request.clip + "'"));
         return false;
     }
-    made.exit_code = exit_code_of_findings(diagnostics, kExitOk);
+    made.error = forbidding_error(diagnostics);
     read_.broken.clear();
     read_.broken_findings.clear();
-    if (shows_broken_ && made.exit_code == kExitShader) {
+    if (shows_broken_ && made.error == SceneError::Shader) {
         for (const Finding& finding : diagnostics.findings())
             if (finding.severity == Severity::Error && finding.where.file != kNoFile)
                 add_broken_shaders(diagnostics.files, finding.where, read_.broken);
         read_.broken_findings = take_findings(diagnostics);
-    } else if (made.exit_code != kExitOk) {
+    } else if (made.error != SceneError::None) {
         return false;
     }
     read_.scene = std::move(imported);
@@ -260,8 +258,8 @@ ImportedScene copy_without_geometry(ImportedScene& from) {
 
 void SceneMaker::begin(MadeScene& made) const {
     made.files = read_.files;
-    made.exit_code = kExitShader;
-    made.diagnostics->judge(read_.request.findings.judgement());
+    made.error = SceneError::Shader;
+    made.diagnostics->judge(read_.request.judgement());
     made.diagnostics->files = read_.texts.fork();  // edited texts go when their scene does
 }
 
@@ -318,7 +316,7 @@ bool SceneMaker::swap(const Order& order, MadeScene& made) {
     shown->texts = diagnostics.files;
     made.shown = std::move(shown);
     made.swapped = true;
-    made.exit_code = kExitOk;
+    made.error = SceneError::None;
     made.info = swapped_info(*info_, imported.description);
     made.build_ms = watch.ms();
     return true;
@@ -342,9 +340,9 @@ void SceneMaker::build(const Order& order, MadeScene& made) {
     BuildAgain again{{}, textures_, &overtaken_};
     BuiltScene built =
         build_imported(std::move(imported), diagnostics, order.finer ? &again : nullptr);
-    made.exit_code = exit_code_of_findings(diagnostics, kExitUnreadable);
+    made.error = forbidding_error(diagnostics, SceneError::Unreadable);
     if (!built.scene) return;
-    made.exit_code = kExitOk;
+    made.error = SceneError::None;
     dicing_.coarse = dicing_.coarse && built.redicer;
     // What is diced or exposed by itself depends on its shaders.
     swapper_.reset();

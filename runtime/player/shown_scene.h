@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "runtime/kinora/open_scene.h"
+#include "runtime/kinora/scene_error.h"
 #include "runtime/player/scene_info.h"
 #include "runtime/player/session/places.h"
 #include "runtime/player/session/scene_edits.h"
 #include "runtime/player/shader_document.h"
-#include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
 
@@ -36,7 +37,7 @@ struct MadeScene {
     std::vector<FindingText> findings;         // of reading and building
     std::vector<std::string> files;            // read: of the scene, its shaders and textures
     double build_ms = 0;                       // of edits and build, or swap
-    int exit_code = 0;                         // kinora-render's, where it could not be made
+    SceneError error = SceneError::None;       // why it could not be made
     bool replaces_camera = true;               // another scene, not the same one changed
     bool finer = false;                        // the one shown, with what is displaced diced finer
 };

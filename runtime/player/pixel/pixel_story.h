@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "runtime/base/math.h"
-#include "runtime/programs/disassembly/disassembly.h"
+#include "runtime/kinora/disassembly/disassembly.h"
 
 namespace kinora {
 

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
+#include "runtime/kinora/contents.h"
 #include "runtime/scene/description/play_range.h"
-#include "runtime/scene/description/shader_library.h"
-#include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
 
@@ -17,29 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string& shown(const std::string& id, const std::string& name) {
-    return id.empty() ? name : id;
-}
-
-std::string node_path(const Scene& scene, uint32_t node) {
-    std::string path;
-    for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
-        const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
-        path = shown(step.id, step.name) + (path.empty() ? "" : "/" + path);
-    }
-    return path;
-}
-
 Json cameras(const Scene& scene) {
     Json list = Json::array();
-    for (size_t c = 0; c < scene.cameras.size(); ++c) {
-        const CameraDefinition& camera = scene.description->cameras[scene.cameras[c].definition];
-        list.push_back({{"name", scene.cameras[c].name},
-                        {"camera", shown(camera.id, camera.name)},
-                        {"node", node_path(scene, scene.cameras[c].node)},
+    for (const ListedCamera& camera : listed_cameras(scene))
+        list.push_back({{"name", camera.name},
+                        {"camera", camera.camera},
+                        {"node", camera.node},
                         {"orthographic", camera.orthographic},
-                        {"chosen", c == scene.start.camera}});
-    }
+                        {"chosen", camera.chosen}});
     return list;
 }
 
@@ -55,7 +38,7 @@ Json clips(const Scene& scene) {
     PlayRange range = play_range(*scene.description);
     Json list = Json::array(
         {{{"range", true}, {"start", range.start}, {"end", range.end}, {"rate", range.rate}}});
-    for (const ClipDefinition& clip : scene.description->clips)
+    for (const ListedClip& clip : listed_clips(scene))
         list.push_back(
             {{"name", clip.name}, {"id", clip.id}, {"start", clip.start}, {"end", clip.end}});
     return list;
@@ -71,17 +54,12 @@ std::string clip_line(const Json& row) {
 
 Json materials(const Scene& scene) {
     Json list = Json::array();
-    std::set<std::string> seen;
-    for (const auto& look : scene.shader_instances) {
-        if (look->kind != ShaderInstanceKind::Surface || !seen.insert(look->name).second) continue;
-        constexpr const char* kOpacity[] = {"opaque", "constant opacity", "computed opacity"};
+    for (const ListedMaterial& material : listed_materials(scene)) {
         Json layers = Json::array();
-        for (const ShaderUse& use : look->layers)
-            layers.push_back(
-                {{"kind", rsl::shader_kind_name(use.shader->kind)}, {"shader", use.shader->name}});
-        list.push_back({{"name", look->name},
-                        {"layers", layers},
-                        {"opacity", kOpacity[size_t(look->lowered.opacity)]}});
+        for (const ListedLayer& layer : material.layers)
+            layers.push_back({{"kind", layer.kind}, {"shader", layer.shader}});
+        list.push_back(
+            {{"name", material.name}, {"layers", layers}, {"opacity", material.opacity}});
     }
     return list;
 }
@@ -95,26 +73,14 @@ std::string material_line(const Json& row) {
                        row["opacity"].get<std::string>());
 }
 
-// Calls f(Shader&) once for each shader that the scene runs.
-template <class F>
-void for_each_shader(const Scene& scene, F&& f) {
-    std::set<const rsl::Shader*> seen;
-    for (const auto* looks : {&scene.shader_instances, &scene.vertex_instances})
-        for (const auto& look : *looks)
-            for (const ShaderUse& use : look->layers)
-                if (seen.insert(use.shader.get()).second) f(*use.shader);
-}
-
 Json shaders(const Scene& scene) {
     Json list = Json::array();
-    for_each_shader(scene, [&](const rsl::Shader& shader) {
+    for (const ListedShader& shader : listed_shaders(scene)) {
         Json parameters = Json::array();
-        for (const rsl::ShaderParameter& p : shader.parameters)
-            parameters.push_back({{"name", p.name}, {"type", rsl::type_name(p.type)}});
-        list.push_back({{"name", shader.name},
-                        {"kind", rsl::shader_kind_name(shader.kind)},
-                        {"parameters", parameters}});
-    });
+        for (const ListedParameter& p : shader.parameters)
+            parameters.push_back({{"name", p.name}, {"type", p.type}});
+        list.push_back({{"name", shader.name}, {"kind", shader.kind}, {"parameters", parameters}});
+    }
     return list;
 }
 
@@ -130,9 +96,8 @@ std::string shader_line(const Json& row) {
 // What --shader, --atmosphere and --imager take by name.
 Json ours(const Scene&) {
     Json list = Json::array();
-    for (std::string_view name : library_shader_names())
-        list.push_back(
-            {{"name", name}, {"kind", rsl::shader_kind_name(library_shader(name)->kind)}});
+    for (const ListedShader& shader : listed_library_shaders())
+        list.push_back({{"name", shader.name}, {"kind", shader.kind}});
     return list;
 }
 
@@ -141,33 +106,16 @@ std::string our_line(const Json& row) {
                        row["name"].get<std::string>());
 }
 
-// What --param takes: NAME.PARAMETER of the materials, lights, atmospheres and imagers, added
-// lights too.
-Json params(const Scene& scene) {
-    const SceneDescription& description = *scene.description;
+Json rows_of(const std::vector<ListedParameter>& parameters) {
     Json list = Json::array();
-    std::set<std::string> seen;
-    auto add = [&](const std::string& of, const ShaderUse& use) {
-        for (const rsl::ShaderParameter& p : use.shader->parameters) {
-            std::string name = fmt::format("{}.{}", of, p.name);
-            if (!seen.insert(name).second) continue;
-            list.push_back(
-                {{"name", name}, {"type", rsl::type_name(p.type)}, {"shader", use.shader->name}});
-        }
-    };
-    for (const MaterialDefinition& m : description.materials)
-        for (const auto* layers : {&m.transformations, &m.displacements, &m.surfaces, &m.interior,
-                                   &m.exterior, &m.lights})
-            for (const ShaderUse& use : *layers) add(shown(m.id, m.name), use);
-    for (const LightDefinition& light : description.lights)
-        add(shown(light.id, light.name), light.shader);
-    auto of_picture = [&](const PictureShaders& picture) {
-        for (const auto* stack : {&picture.atmosphere, &picture.imagers})
-            for (const ShaderUse& use : *stack) add(std::string(use.shader->name), use);
-    };
-    of_picture(description.picture);
-    for (const CameraDefinition& camera : description.cameras) of_picture(camera.picture);
+    for (const ListedParameter& p : parameters)
+        list.push_back({{"name", p.name}, {"type", p.type}, {"shader", p.shader}});
     return list;
+}
+
+// What --param takes.
+Json params(const Scene& scene) {
+    return rows_of(listed_parameters(scene));
 }
 
 std::string param_line(const Json& row) {
@@ -175,26 +123,9 @@ std::string param_line(const Json& row) {
                        row["type"].get<std::string>(), row["shader"].get<std::string>());
 }
 
-// What --aov takes: output parameters of surfaces.
+// What --aov takes.
 Json aovs(const Scene& scene) {
-    Json list = Json::array();
-    std::set<std::string> seen;
-    for (const auto& look : scene.shader_instances) {
-        if (look->kind != ShaderInstanceKind::Surface) continue;
-        for (const ShaderUse& use : look->layers) {
-            auto add = [&](std::string_view name, rsl::Type type) {
-                if (seen.insert(std::string(name)).second)
-                    list.push_back({{"name", name},
-                                    {"type", rsl::type_name(type)},
-                                    {"shader", use.shader->name}});
-            };
-            for (const rsl::ShaderParameter& p : use.shader->parameters)
-                if (rsl::is_aov(p)) add(p.name, p.type);
-            for (const rsl::NamedOutput& o : use.shader->named_outputs)
-                add(o.pattern, {o.type, -1});
-        }
-    }
-    return list;
+    return rows_of(listed_aovs(scene));
 }
 
 std::string aov_line(const Json& row) {
@@ -204,14 +135,11 @@ std::string aov_line(const Json& row) {
 
 Json lights(const Scene& scene) {
     Json list = Json::array();
-    for (const LightSource& source : scene.lights) {
-        const LightDefinition& light = scene.description->lights[source.definition];
-        const NodeDefinition& node = scene.description->nodes[scene.nodes[source.node].definition];
-        list.push_back({{"name", shown(light.id, light.name)},
-                        {"node", shown(node.id, node.name)},
-                        {"shader", light.shader.shader->name},
-                        {"area", source.surface != kNone}});
-    }
+    for (const ListedLight& light : listed_lights(scene))
+        list.push_back({{"name", light.name},
+                        {"node", light.node},
+                        {"shader", light.shader},
+                        {"area", light.area}});
     return list;
 }
 
@@ -221,30 +149,17 @@ std::string light_line(const Json& row) {
                        row["area"].get<bool>() ? ", on its surface" : "");
 }
 
-// What --hide and --only are for: nodes that bear something.
+// What --hide and --only are for.
 Json nodes(const Scene& scene) {
-    const SceneDescription& description = *scene.description;
     Json list = Json::array();
-    for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        const NodeDefinition& node = description.nodes[scene.nodes[n].definition];
-        Json meshes = Json::array(), lights = Json::array(), cameras = Json::array();
-        for (const MeshUse& use : node.meshes) {
-            const MeshDefinition& mesh = description.meshes[use.mesh];
-            meshes.push_back(shown(mesh.id, mesh.name));
-        }
-        for (uint32_t l : node.lights)
-            lights.push_back(shown(description.lights[l].id, description.lights[l].name));
-        for (uint32_t c : node.cameras)
-            cameras.push_back(shown(description.cameras[c].id, description.cameras[c].name));
-        if (meshes.empty() && lights.empty() && cameras.empty()) continue;
-        list.push_back({{"path", node_path(scene, n)},
+    for (const ListedNode& node : listed_nodes(scene))
+        list.push_back({{"path", node.path},
                         {"id", node.id},
                         {"name", node.name},
-                        {"meshes", meshes},
-                        {"lights", lights},
-                        {"cameras", cameras},
-                        {"hidden", scene.nodes[n].hidden || !scene.nodes[n].chosen}});
-    }
+                        {"meshes", node.meshes},
+                        {"lights", node.lights},
+                        {"cameras", node.cameras},
+                        {"hidden", node.hidden}});
     return list;
 }
 

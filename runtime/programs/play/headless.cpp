@@ -11,6 +11,7 @@
 #include "runtime/player/script.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/missing_asset.h"
+#include "runtime/programs/common/scene_exit_code.h"
 
 namespace kinora {
 
@@ -91,7 +92,8 @@ int run_headless(const PlayOptions& options, Player& player) {
     if (player.load_state() != LoadState::Ready) {
         lines.summarize();
         if (lines.lacks_assets()) return kExitMissingAsset;
-        return player.exit_code() != 0 ? player.exit_code() : int(kExitUnreadable);
+        const int code = exit_code_of(player.error());
+        return code != kExitOk ? code : int(kExitUnreadable);
     }
     int code = options.script.empty() ? int(kExitOk) : run_script(options, player);
     if (code == kExitOk && !options.screenshot.empty()) code = take_screenshots(options, player);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "runtime/programs/open/open_scene.h"
+#include "runtime/kinora/open_scene.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/shader_instance.h"

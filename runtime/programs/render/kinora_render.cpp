@@ -14,15 +14,15 @@
 #include "runtime/base/files/temporary_file.h"
 #include "runtime/base/memory/heap.h"
 #include "runtime/base/parallel.h"
-#include "runtime/base/raise_findings.h"
+#include "runtime/kinora/kinora.h"
 #include "runtime/picture/explain/explain.h"
 #include "runtime/picture/trade/variants.h"
 #include "runtime/programs/common/contact_sheet.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/common/list_scene.h"
 #include "runtime/programs/common/run_program.h"
+#include "runtime/programs/common/scene_exit_code.h"
 #include "runtime/programs/common/standard_streams.h"
-#include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/band_writer.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/frame_codes.h"
@@ -58,15 +58,19 @@ void on_signal(int number) {
     alarm(kStopSeconds);
 }
 
+// Whether scenes of other settings are built besides the one that is rendered.
+bool measures(const RenderOptions& options) {
+    return !options.tradeoff.empty() || options.frame_target.any();
+}
+
 class Render {
   public:
     explicit Render(const RenderOptions& options)
         : options_(options),
           asked_(options),
+          scene_(options, measures(options) ? OpenScene::Keep::Source : OpenScene::Keep::Nothing),
           printer_(options.findings, options.scene),
-          progress_(options.progress, 1) {
-        diagnostics_.judge(options.findings.judgement());
-    }
+          progress_(options.progress, 1) {}
 
     int run() {
         set_thread_count(options_.threads);
@@ -82,8 +86,8 @@ class Render {
   private:
     int result() {
         if (!options_.list.empty()) {
-            std::fputs((options_.json ? list_scene_json(*built_.scene, options_.list)
-                                      : list_scene(*built_.scene, options_.list))
+            std::fputs((options_.json ? list_scene_json(scene_.scene(), options_.list)
+                                      : list_scene(scene_.scene(), options_.list))
                            .c_str(),
                        stdout);
             return kExitOk;
@@ -97,8 +101,8 @@ class Render {
         if (!pictures) return code;
         if (options_.stats)
             print_stats(options_,
-                        {load_ms_, build_ms_, first_ray_ms_, built_.scene->dice,
-                         built_.scene->textures ? built_.scene->textures->decoded_bytes() : 0},
+                        {load_ms_, build_ms_, first_ray_ms_, scene_.scene().dice,
+                         scene_.scene().textures ? scene_.scene().textures->decoded_bytes() : 0},
                         list_, records_);
         return code;
     }
@@ -106,7 +110,7 @@ class Render {
     int load();
     void flush_findings();
     void dump() const;
-    void print_explained() const;
+    void print_explained();
     int frames();
     bool list_frames();
     bool all_frames();
@@ -133,12 +137,9 @@ class Render {
 
     RenderOptions options_;      // with the settings that --target-ms and --target-error choose
     const RenderOptions asked_;  // without
-    Diagnostics diagnostics_;
+    OpenScene scene_;
     FindingPrinter printer_;
-    BuiltScene built_;
-    std::optional<ImportedScene> unbuilt_;  // for --tradeoff and targets
     std::optional<TargetedFrames> targeted_;
-    FrameSettings settings_;
     PlacedCamera placed_;
     raytrace::Film film_, spare_film_;
     ProgressReport progress_;
@@ -148,7 +149,6 @@ class Render {
     FrameWriter writer_;
     BandWriter bands_;
     FrameCodes codes_{options_.keep_going};
-    FrameRate rate_;
     Stopwatch since_start_;
     double load_ms_ = 0, build_ms_ = 0, first_ray_ms_ = 0;
     uint64_t scene_hash_ = 0;
@@ -156,63 +156,60 @@ class Render {
 
 void Render::flush_findings() {
     progress_.clear();
-    printer_.print(diagnostics_);
+    printer_.print(scene_.diagnostics());
 }
 
 int Render::load() {
-    if (options_.findings.strict) diagnostics_.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
     Stopwatch watch;
-    std::optional<ImportedScene> imported = import_requested(options_, diagnostics_);
-    if (!imported) {
-        raise_findings(diagnostics_, "XML_");
+    const SceneError unread = scene_.read();
+    if (unread == SceneError::Unreadable) {
         flush_findings();
         return report_unreadable();
     }
     load_ms_ = watch.restart();
-    if (!imported->clip_known) {
+    if (unread != SceneError::None) {
         flush_findings();
         std::fprintf(stderr, "kinora-render: no clip '%s'; --list clips shows them\n",
                      options_.clip.c_str());
         return kExitUsage;
     }
-    rate_ = imported->rate;
-    imported->options.want_dumps = !options_.dump.empty();
-    bool good = !options_.session ||
-                apply_edits(*imported, options_.session->edits, options_, diagnostics_);
-    if (!options_.tradeoff.empty() || options_.frame_target.any()) unbuilt_ = *imported;
-    if (good) built_ = build_imported(std::move(*imported), diagnostics_);
+    ImportedScene& imported = *scene_.imported();
+    imported.options.want_dumps = !options_.dump.empty();
+    const bool good = !options_.session || apply_edits(imported, options_.session->edits, options_,
+                                                       scene_.diagnostics());
+    if (good) scene_.build();
     build_ms_ = watch.ms();
     flush_findings();
-    int code = exit_code_of_findings(diagnostics_, kExitOk);
+    int code = exit_code_of(forbidding_error(scene_.diagnostics()));
     if (code != kExitOk) return code;
-    if (!built_.scene) return report_unreadable();
+    if (!scene_.is_built()) return report_unreadable();
     // An Error means that there is no picture; what --fail-on names besides comes with one.
     return printer_.exit_code_of_errors();
 }
 
 // An exit code that is not 0 has an error behind it.
 int Render::report_unreadable() const {
-    if (!diagnostics_.has_errors())
+    if (!scene_.diagnostics().has_errors())
         std::fprintf(stderr, "kinora-render: error: '%s' cannot be rendered\n",
                      options_.scene.c_str());
     return kExitUnreadable;
 }
 
 void Render::dump() const {
-    for (const auto& [stage, text] : built_.scene->options.dumps)
+    for (const auto& [stage, text] : scene_.scene().options.dumps)
         for (const std::string& wanted : options_.dump)
             if (stage == wanted || stage.starts_with(wanted + ":"))
                 std::printf("; stage %s\n%s\n", stage.c_str(), text.c_str());
 }
 
-void Render::print_explained() const {
-    auto rows = explain(*built_.scene, *built_.pose, options_.quality, options_.preset);
+void Render::print_explained() {
+    auto rows = explain(scene_.scene(), scene_.pose(), options_.quality, options_.preset);
     std::string text = options_.explain == "json" ? explained_json(rows) : explained_text(rows);
     std::fputs(text.c_str(), stdout);
 }
 
 int Render::report_unwritable(const std::string& file, const std::string& error, int number) {
-    diagnostics_.report(Code::FRAME_UNWRITABLE, Location{}, file, error);
+    scene_.diagnostics().report(Code::FRAME_UNWRITABLE, Location{}, file, error);
     flush_findings();
     bool full = number == ENOSPC || number == EDQUOT || number == ENOMEM;
     return full ? kExitRetry : kExitUnwritable;
@@ -220,7 +217,7 @@ int Render::report_unwritable(const std::string& file, const std::string& error,
 
 // How many files could not be written so far; those that shaders bake too.
 ptrdiff_t Render::unwritable() const {
-    const std::vector<Finding>& findings = diagnostics_.findings();
+    const std::vector<Finding>& findings = scene_.diagnostics().findings();
     return std::count_if(findings.begin(), findings.end(), [](const Finding& finding) {
         return finding.info == &Code::FRAME_UNWRITABLE;
     });
@@ -261,10 +258,10 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     FrameRecord& record = records_.emplace_back();
     record.frame = frame;
     record.index = index;
-    record.pixels = size_t(settings_.width) * size_t(settings_.height);
+    record.pixels = size_t(scene_.settings().width) * size_t(scene_.settings().height);
     if (!options_.output.empty()) record.file = OutputName(options_.output).file(frame);
-    std::string print =
-        fingerprint(asked_, scene_hash_, settings_.width, settings_.height, rate_.value(), time);
+    std::string print = fingerprint(asked_, scene_hash_, scene_.settings().width,
+                                    scene_.settings().height, scene_.rate().value(), time);
     bool wants_file = !record.file.empty();
     if (wants_file && options_.skip_existing) end_write();  // pictures of a sheet come in order
     if (wants_file && options_.skip_existing && keep_existing(record.file, print)) {
@@ -274,7 +271,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     }
     if (wants_file)
         if (int code = refuse_unwritable(record.file)) return code;
-    settings_.integrator.seed = frame_seed(options_, frame);
+    scene_.settings().integrator.seed = frame_seed(options_, frame);
     auto on_tile = [&](int done, int total) {
         progress_.tile(frame, index, done, total);
         return g_signal == 0;
@@ -290,8 +287,8 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
                                     {"kinora/fingerprint", print},
                                     {kChecksumText, ""}},
                           .film = {}};
-    const bool in_bands = settings_.band_rows > 0;
-    if (in_bands) bands_.start(to_write, settings_.height);
+    const bool in_bands = scene_.settings().band_rows > 0;
+    if (in_bands) bands_.start(to_write, scene_.settings().height);
     bool whole =
         (!targeted_ || choose_samples(frame, time, progress)) && picture(record, time, progress);
     bool baked = unwritable() == unwritten;  // point files
@@ -302,7 +299,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (in_bands)
         if (int code = end_bands(record, whole)) return code;
     if (!whole) return kExitSomeFailed;
-    record.samples = settings_.integrator.samples_per_pixel;
+    record.samples = scene_.settings().integrator.samples_per_pixel;
     if (targeted_) targeted_->took(record.samples, record.stats.total);
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
     if (wants_file && !in_bands) {
@@ -350,38 +347,18 @@ void Render::end_write() {
 void Render::place_session_camera(double time) {
     if (!options_.session || !options_.session->camera.own) return;
     const SessionCamera& camera = options_.session->camera;
-    placed_ = placed_camera(*built_.scene, *built_.pose, *camera.own, camera.follow, time);
-    settings_.camera = &placed_;
+    placed_ = placed_camera(scene_.scene(), scene_.pose(), *camera.own, camera.follow, time);
+    scene_.settings().camera = &placed_;
 }
 
-// By the scene as loaded; where its displaced meshes are too coarse for the frame, by one diced for
-// it too, so that a picture depends on its frame alone, not on those before. Where the limit of
-// triangles leaves that no finer, by the first after all.
 bool Render::picture(FrameRecord& record, double time, const raytrace::Progress& progress) {
     place_session_camera(time);
-    auto render = [&](const Scene& scene, Pose& pose, double most_dice_error) {
-        settings_.most_dice_error = most_dice_error;
-        return render_frame(scene, pose, time, settings_, film_, record.stats, diagnostics_,
-                            &progress);
-    };
-    bool whole = render(*built_.scene, *built_.pose, built_.redicer ? kMostDiceError : 0);
-    record.dice_error = record.stats.dice_error;
-    if (!record.stats.too_coarse) return whole;
-    Stopwatch watch;
-    diagnostics_.report(Code::DICE_AGAIN, Location{}, time, record.dice_error);
-    CloserView view{time, {}};
-    if (settings_.camera) view.camera = built_.pose->view;
-    PosedScene closer = built_.redicer->make(view, diagnostics_);
-    if (closer) closer.pose->camera = built_.pose->camera;
-    record.redice_ms = watch.ms();
-    if (g_signal) return false;
-    if (closer) {
-        double pixels = record.dice_error * built_.scene->dice.pixels;
-        size_t known = diagnostics_.findings().size();
-        whole = render(*closer.scene, *closer.pose, pixels / closer.scene->dice.pixels);
-        diagnostics_.drop_repeats(known);  // a scene tells some things in its first frame
-    }
-    return closer && !record.stats.too_coarse ? whole : render(*built_.scene, *built_.pose, 0);
+    RenderedFrame cost;
+    const bool whole = scene_.render(time, film_, &cost, &progress);
+    record.stats = cost.stats;
+    record.dice_error = cost.dice_error;
+    record.redice_ms = cost.redice_ms;
+    return whole;
 }
 
 // From here on a signal lets go of the frame under way; before, it just ends the process.
@@ -398,10 +375,10 @@ void catch_signals() {
 }
 
 bool Render::list_frames() {
-    auto list = frames_to_render(options_, rate_, *built_.scene);
+    auto list = frames_to_render(options_, scene_.rate(), scene_.scene());
     if (!list) return false;
     list_ = std::move(*list);
-    report_past(options_, rate_, *built_.scene, list_, diagnostics_);
+    report_past(options_, scene_.rate(), scene_.scene(), list_, scene_.diagnostics());
     return true;
 }
 
@@ -409,22 +386,23 @@ int Render::frames() {
     catch_signals();
     if (!list_frames()) return kExitUsage;
     if (int code = ready_folders()) return code;
-    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description, options_.scene);
+    scene_hash_ =
+        hash_inputs(scene_.diagnostics().files, *scene_.scene().description, options_.scene);
     if (options_.frame_target.any())
         if (int code = choose_settings_for_target()) return code;
-    diagnostics_.files.cut_long_lines();
-    settings_ = frame_settings(options_, *built_.scene, *built_.pose, diagnostics_, &g_signal);
+    scene_.diagnostics().files.cut_long_lines();
+    scene_.ready_frames(&g_signal);
+    FrameSettings& settings = scene_.settings();
     if (const auto& session = options_.session) {
-        choose_camera(*built_.scene, *built_.pose, session->camera);
-        settings_.gain *= std::exp2(session->exposure);
-        if (session->width > 0) settings_.width = session->width;
-        if (session->height > 0) settings_.height = session->height;
+        choose_camera(scene_.scene(), scene_.pose(), session->camera);
+        settings.gain *= std::exp2(session->exposure);
+        if (session->width > 0) settings.width = session->width;
+        if (session->height > 0) settings.height = session->height;
     }
     // A contact sheet and settings for a target take whole pictures.
     if (options_.contact_sheet.empty() && !options_.frame_target.any()) {
-        settings_.band_rows =
-            band_rows(settings_.width, settings_.height, settings_.integrator.tile);
-        settings_.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };
+        settings.band_rows = band_rows(settings.width, settings.height, settings.integrator.tile);
+        settings.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };
     }
     progress_ = ProgressReport(options_.progress, list_.size());
     const bool all = all_frames();
@@ -462,7 +440,8 @@ int Render::write_sheet() {
 // A frame that was reported as done may have gone since, alone or with its folder.
 int Render::look_again(int code) {
     const std::vector<std::string> lost = mark_lost_frames(records_);
-    for (const std::string& file : lost) diagnostics_.report(Code::FRAME_GONE, Location{}, file);
+    for (const std::string& file : lost)
+        scene_.diagnostics().report(Code::FRAME_GONE, Location{}, file);
     flush_findings();
     const bool gone = !lost.empty() || !folder_is_there(options_.output);
     const bool worse = code == kExitOk || code == kExitSomeFailed;
@@ -484,8 +463,8 @@ void Render::tell_target(const std::string& text) const {
 // An error's settings are those of the shot, so that a frame has the same ones in each part of it.
 FrameTimes Render::frames_to_probe() const {
     if (options_.frame_target.ms > 0) return list_;
-    const SceneOptions& played = built_.scene->options;
-    FrameTimes middle = middle_of_shot(options_, rate_, played.start_time, played.end_time);
+    const SceneOptions& played = scene_.scene().options;
+    FrameTimes middle = middle_of_shot(options_, scene_.rate(), played.start_time, played.end_time);
     if (!middle.empty()) return middle;
     tell_target(target_text(options_.frame_target) +
                 ": the scene plays without end, so the frames given here choose the settings; "
@@ -498,14 +477,14 @@ int Render::choose_settings_for_target() {
     std::string why_not;
     const FrameTimes probed = frames_to_probe();
     auto chosen = choose_settings({.scene = options_,
-                                   .imported = *unbuilt_,
+                                   .imported = *scene_.imported(),
                                    .frames = probed,
                                    .target = options_.frame_target,
                                    .fixed = options_.fixed_settings,
                                    .measured = options_.measured,
                                    .fingerprint = scene_fingerprint(),
                                    .stop = &g_signal},
-                                  diagnostics_, why_not);
+                                  scene_.diagnostics(), why_not);
     flush_findings();
     if (g_signal) return 128 + g_signal;
     if (!chosen) {
@@ -516,31 +495,32 @@ int Render::choose_settings_for_target() {
     targeted_.emplace(options_.frame_target, *chosen);
     tell_target(targeted_->begin_text());
     options_.quality = chosen->quality;
+    scene_.set_quality(options_.quality);
     if (scene_key(asked_.quality) == scene_key(options_.quality)) return kExitOk;
-    unbuilt_->options.quality = options_.quality;
-    const size_t known = diagnostics_.findings().size();
-    built_ = build_imported(std::move(*unbuilt_), diagnostics_);
-    diagnostics_.drop_repeats(known);
-    return built_.scene ? int(kExitOk) : report_unreadable();
+    scene_.keep(OpenScene::Keep::Nothing);
+    const size_t known = scene_.diagnostics().findings().size();
+    scene_.build();
+    scene_.diagnostics().drop_repeats(known);
+    return scene_.is_built() ? int(kExitOk) : report_unreadable();
 }
 
 bool Render::choose_samples(int64_t frame, double time, const raytrace::Progress& progress) {
     SceneRequest seeded = options_;
     auto pass = [&](int samples, uint32_t seed, raytrace::Film& film) {
-        FrameSettings settings = settings_;
+        FrameSettings settings = scene_.settings();
         settings.integrator.samples_per_pixel = samples;
         seeded.seed = options_.seed + seed;
         settings.integrator.seed = frame_seed(seeded, frame);
         settings.most_dice_error = 0;
         FrameStats stats;
-        const size_t known = diagnostics_.findings().size();
-        bool whole = render_frame(*built_.scene, *built_.pose, time, settings, film, stats,
-                                  diagnostics_, &progress);
-        diagnostics_.drop_repeats(known);
+        const size_t known = scene_.diagnostics().findings().size();
+        bool whole = render_frame(scene_.scene(), scene_.pose(), time, settings, film, stats,
+                                  scene_.diagnostics(), &progress);
+        scene_.diagnostics().drop_repeats(known);
         return whole;
     };
-    settings_.integrator.samples_per_pixel = targeted_->samples(pass);
-    return settings_.integrator.samples_per_pixel > 0;
+    scene_.settings().integrator.samples_per_pixel = targeted_->samples(pass);
+    return scene_.settings().integrator.samples_per_pixel > 0;
 }
 
 // Of the scene and what its pictures depend on besides knobs and frames.
@@ -548,7 +528,8 @@ std::string Render::scene_fingerprint() const {
     RenderOptions plain = asked_;
     plain.quality = *find_quality(kDefaultQuality);
     plain.frame_target = {};
-    return fingerprint(plain, scene_hash_, options_.width, options_.height, rate_.value(), 0);
+    return fingerprint(plain, scene_hash_, options_.width, options_.height, scene_.rate().value(),
+                       0);
 }
 
 int Render::tradeoff() {
@@ -565,18 +546,19 @@ int Render::tradeoff() {
     if (int code = try_tradeoff_folder(options_.tradeoff)) return code;
     catch_signals();
     if (!list_frames()) return kExitUsage;
-    scene_hash_ = hash_inputs(diagnostics_.files, *built_.scene->description, options_.scene);
+    scene_hash_ =
+        hash_inputs(scene_.diagnostics().files, *scene_.scene().description, options_.scene);
     std::string print = scene_fingerprint();
-    built_ = {};  // its memory is for the scenes to come
+    scene_.close();  // its memory is for the scenes to come
     TradeResults results;
     bool measured = measure_tradeoff({.scene = options_,
-                                      .imported = *unbuilt_,
+                                      .imported = *scene_.imported(),
                                       .frames = std::exchange(list_, {}),
                                       .fingerprint = std::move(print),
                                       .budget_s = options_.budget,
                                       .tell = !options_.findings.quiet,
                                       .stop = &g_signal},
-                                     diagnostics_, results);
+                                     scene_.diagnostics(), results);
     flush_findings();
     if (g_signal) return 128 + g_signal;
     if (!measured) return kExitSomeFailed;

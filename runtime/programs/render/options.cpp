@@ -7,9 +7,9 @@
 
 #include "runtime/base/file_extension.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/kinora/open_scene.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
-#include "runtime/programs/open/open_scene.h"
 #include "runtime/programs/render/quality_options.h"
 #include "runtime/programs/render/session_words.h"
 #include "runtime/programs/render/trade_options.h"
@@ -333,6 +333,7 @@ std::vector<const CLI::Option*> declare_scene(CLI::App& app, Given& given, Rende
 }
 
 void interpret_scene(RenderOptions& o) {
+    o.strict = o.findings.strict;
     if (o.scene.empty() && o.session) o.scene = o.session->scene;
     if (o.session) o.session->scene = o.scene;
 }

@@ -7,14 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/kinora/scene_request.h"
 #include "runtime/picture/trade/target.h"
 #include "runtime/player/session/session.h"
+#include "runtime/programs/common/finding_printer.h"
 #include "runtime/programs/common/progress.h"
-#include "runtime/programs/open/scene_request.h"
 
 namespace kinora {
 
 struct RenderOptions : SceneRequest {
+    FindingOptions findings;
     std::string output;
     bool discard = false;  // -o null: pictures are rendered and not written
     std::string contact_sheet;

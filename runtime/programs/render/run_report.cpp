@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "runtime/programs/common/frame_list.h"
+#include "runtime/kinora/frame_list.h"
 
 namespace kinora {
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "runtime/kinora/disassembly/disassembly.h"
 #include "runtime/programs/common/exit_codes.h"
-#include "runtime/programs/disassembly/disassembly.h"
 #include "runtime/programs/shade/kernel.h"
 
 namespace kinora {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/kinora/open_scene.h"
 #include "runtime/picture/trade/target.h"
-#include "runtime/programs/open/open_scene.h"
 
 namespace kinora {
 

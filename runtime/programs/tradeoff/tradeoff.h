@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/programs/open/open_scene.h"
+#include "runtime/kinora/open_scene.h"
 #include "runtime/programs/tradeoff/results.h"
 
 namespace kinora {

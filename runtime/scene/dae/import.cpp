@@ -12,12 +12,29 @@
 
 namespace kinora {
 
-std::optional<SceneDescription> import_collada(const std::string& path,
+// Bytes that are no archive are those of `file.document`; else that is a file.
+static std::optional<collada::Document> read_opened(const collada::SceneFile& file,
+                                                    const SceneSource& source,
+                                                    Diagnostics& diagnostics) {
+    if (source.bytes && file.folder.empty())
+        return collada::read_document_text(file.document, std::string(*source.bytes), diagnostics);
+    return collada::read_document(file.document, diagnostics);
+}
+
+static std::optional<collada::SceneFile> open_source(const SceneSource& source,
+                                                     Diagnostics& diagnostics) {
+    if (!source.bytes) return collada::open_scene(source.path, diagnostics);
+    if (!collada::is_archive_bytes(*source.bytes))
+        return collada::SceneFile{source.path, {}, {}, {}, {}};
+    return collada::open_scene_bytes(source.path, *source.bytes, diagnostics);
+}
+
+std::optional<SceneDescription> import_collada(const SceneSource& source,
                                                const ImportOptions& options,
                                                Diagnostics& diagnostics) {
-    std::optional<collada::SceneFile> file = collada::open_scene(path, diagnostics);
+    std::optional<collada::SceneFile> file = open_source(source, diagnostics);
     if (!file) return std::nullopt;
-    std::optional<collada::Document> document = collada::read_document(file->document, diagnostics);
+    std::optional<collada::Document> document = read_opened(*file, source, diagnostics);
     if (!document) return std::nullopt;
     collada::ExtractOptions extract_options;
     extract_options.folder = file->folder;
@@ -34,7 +51,7 @@ std::optional<SceneDescription> import_collada(const std::string& path,
     std::string folder = document->directory();
     document.reset();  // the scene's data stand alone
     SceneDescription description;
-    description.path = path;
+    description.path = source.path;
     auto files = std::make_shared<std::vector<std::shared_ptr<const void>>>(data->files);
     files->push_back(file->keep);
     description.files = std::move(files);

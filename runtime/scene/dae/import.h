@@ -7,6 +7,7 @@
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/description/scene_description.h"
+#include "runtime/scene/description/scene_source.h"
 
 namespace kinora {
 
@@ -14,7 +15,7 @@ namespace kinora {
 // shader bound there. Findings have their locations in the .dae, also those inside shader code.
 // Nothing is returned when there is no scene to show; errors that leave a scene (a shader that does
 // not compile: its material becomes the default one) are in `diagnostics`.
-std::optional<SceneDescription> import_collada(const std::string& path,
+std::optional<SceneDescription> import_collada(const SceneSource& source,
                                                const ImportOptions& options,
                                                Diagnostics& diagnostics);
 

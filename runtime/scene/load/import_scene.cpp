@@ -26,20 +26,27 @@ void leave_out_tints(SceneDescription& description) {
     });
 }
 
+bool has_gltf_name(const std::string& path) {
+    return has_extension(path, {".gltf", ".glb"});
+}
+
 }  // namespace
 
 bool is_gltf(const std::string& path) {
-    if (has_extension(path, {".gltf", ".glb"})) return true;
+    if (has_gltf_name(path)) return true;
     OpenFile file = open_regular_file(path);
     char magic[4] = {};
     return file && std::fread(magic, 1, 4, file.get()) == 4 && std::memcmp(magic, "glTF", 4) == 0;
 }
 
-std::optional<SceneDescription> import_scene(const std::string& path, const ImportOptions& options,
+std::optional<SceneDescription> import_scene(const SceneSource& source,
+                                             const ImportOptions& options,
                                              Diagnostics& diagnostics) {
-    bool gltf = is_gltf(path);
+    bool gltf = source.bytes ? has_gltf_name(source.path) || source.bytes->starts_with("glTF")
+                             : is_gltf(source.path);
     std::optional<SceneDescription> description =
-        gltf ? import_gltf(path, options, diagnostics) : import_collada(path, options, diagnostics);
+        gltf ? import_gltf(source, options, diagnostics)
+             : import_collada(source, options, diagnostics);
     if (!description) return std::nullopt;
     give_faces_their_normals(*description);
     if (!options.vertex_colors) leave_out_tints(*description);

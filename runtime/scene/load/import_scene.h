@@ -6,12 +6,14 @@
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/import_options.h"
+#include "runtime/scene/description/scene_source.h"
 
 namespace kinora {
 
-// By the file's first bytes ("glTF": a .glb), else its name (.gltf, .glb), else COLLADA. As
+// By the first bytes ("glTF": a .glb), else the name (.gltf, .glb), else COLLADA. As
 // import_collada and import_gltf say; then meshes without normals get those of ImportOptions.
-std::optional<SceneDescription> import_scene(const std::string& path, const ImportOptions& options,
+std::optional<SceneDescription> import_scene(const SceneSource& source,
+                                             const ImportOptions& options,
                                              Diagnostics& diagnostics);
 
 // Whether import_scene takes the file for glTF.

@@ -10,7 +10,6 @@
 #include "played.h"
 #include "runtime/base/stats.h"
 #include "runtime/player/scene_maker.h"
-#include "runtime/programs/common/exit_codes.h"
 
 namespace kinora {
 namespace {
@@ -158,7 +157,7 @@ TEST(Coarse, ABrokenTextDoesNotKeepASceneCoarse) {
     const auto broken = std::ranges::find_if(made, [](const auto& one) { return !one->shown; });
     ASSERT_NE(broken, made.end());
     EXPECT_FALSE((*broken)->findings.empty());
-    EXPECT_EQ((*broken)->exit_code, kExitShader);
+    EXPECT_EQ((*broken)->error, SceneError::Shader);
     std::erase_if(made, [](const auto& one) { return !one->shown; });
     ASSERT_FALSE(made.empty());
     EXPECT_EQ(made.back()->edits, SceneEdits{});

@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "runtime/kinora/open_scene.h"
 #include "runtime/picture/frame/frame.h"
 #include "runtime/player/denoise/denoiser.h"
-#include "runtime/programs/open/open_scene.h"
 #include "tests/folders.h"
 #include "tests/runtime/player/played.h"
 

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstring>
 
+#include "runtime/kinora/open_scene.h"
 #include "runtime/picture/frame/frame.h"
 #include "runtime/player/denoise/kernels.h"
 #include "runtime/player/denoise/planes.h"
 #include "runtime/player/session/free_camera.h"
-#include "runtime/programs/open/open_scene.h"
 #include "runtime/scene/camera.h"
 #include "tests/runtime/player/played.h"
 

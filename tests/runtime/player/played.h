@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "runtime/base/parallel.h"
+#include "runtime/kinora/open_scene.h"
 #include "runtime/player/player.h"
 #include "runtime/player/script.h"
-#include "runtime/programs/open/open_scene.h"
 #include "runtime/scene/quality/quality.h"
 #include "tests/folders.h"
 

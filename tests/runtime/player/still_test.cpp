@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/kinora/open_scene.h"
 #include "runtime/picture/frame/frame.h"
-#include "runtime/programs/open/open_scene.h"
 #include "tests/runtime/player/played.h"
 
 namespace kinora {
@@ -143,7 +143,7 @@ TEST(Still, EveryFrameIsShownWhereNoneIsToBeDropped) {
 TEST(Still, AMissingSceneFailsWithAFinding) {
     Played played(small_request("/nowhere/scene.dae"));
     EXPECT_EQ(played.player.load_state(), LoadState::Failed);
-    EXPECT_EQ(played.player.exit_code(), 3);
+    EXPECT_EQ(played.player.error(), SceneError::Unreadable);
     EXPECT_FALSE(played.player.findings().empty());
     EXPECT_FALSE(played.player.run_line("orbit 1 1").done);
 }

@@ -38,6 +38,13 @@ std::string read_bytes(const std::string& path, size_t limit, std::vector<unsign
     return "";
 }
 
+std::string read_source(const SceneSource& source, std::vector<unsigned char>& bytes) {
+    if (!source.bytes) return read_bytes(source.path, kMaxGltfBytes, bytes);
+    if (source.bytes->size() > kMaxGltfBytes) return "it is larger than 2 GB";
+    bytes.assign(source.bytes->begin(), source.bytes->end());
+    return "";
+}
+
 std::string_view text_of(const std::vector<unsigned char>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -269,9 +276,10 @@ Location gltf_location(const GltfFile& file, const std::string& pointer) {
     return {file.file, range->begin, pointer.empty() ? range->begin + 1 : range->end};
 }
 
-std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOptions& options,
+std::optional<GltfFile> read_gltf_file(const SceneSource& source, const ImportOptions& options,
                                        Diagnostics& diagnostics) {
     GltfFile file;
+    const std::string& path = source.path;
     file.path = path;
     size_t slash = path.rfind('/');
     file.directory = slash == std::string::npos ? "" : path.substr(0, slash + 1);
@@ -283,8 +291,7 @@ std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOpti
         return std::nullopt;
     };
     std::vector<unsigned char> bytes;
-    if (std::string error = read_bytes(path, kMaxGltfBytes, bytes); !error.empty())
-        return fail(error);
+    if (std::string error = read_source(source, bytes); !error.empty()) return fail(error);
     if (bytes.empty()) return fail("the file is empty");
     file.bytes = bytes.size();
     file.files.push_back(path);

@@ -15,6 +15,7 @@
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/import_options.h"
+#include "runtime/scene/description/scene_source.h"
 
 namespace kinora {
 
@@ -35,10 +36,10 @@ struct GltfFile {
     std::vector<std::string> files;  // read besides the JSON
 };
 
-// Reads the container, its JSON and buffers. Files outside the scene's folder are read only
-// in the folders of options.allow_external. Nothing where there is no model; what is wrong is in
-// `diagnostics`.
-std::optional<GltfFile> read_gltf_file(const std::string& path, const ImportOptions& options,
+// Reads the container (the source is a .gltf or .glb), its JSON and buffers. Files outside the
+// scene's folder are read only in the folders of options.allow_external. Nothing where there is no
+// model; what is wrong is in `diagnostics`.
+std::optional<GltfFile> read_gltf_file(const SceneSource& source, const ImportOptions& options,
                                        Diagnostics& diagnostics);
 
 // The path that a relative URI means, percent-decoded; "" for one that is no path.

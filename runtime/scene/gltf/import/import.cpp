@@ -79,12 +79,12 @@ bool import_model(GltfFile& file, const ImportOptions& options, Diagnostics& dia
 
 }  // namespace
 
-std::optional<SceneDescription> import_gltf(const std::string& path, const ImportOptions& options,
+std::optional<SceneDescription> import_gltf(const SceneSource& source, const ImportOptions& options,
                                             Diagnostics& diagnostics) {
-    std::optional<GltfFile> file = read_gltf_file(path, options, diagnostics);
+    std::optional<GltfFile> file = read_gltf_file(source, options, diagnostics);
     if (!file) return std::nullopt;
     SceneDescription description;
-    description.path = path;
+    description.path = source.path;
     limit_files(description, file->directory, options);
     if (!import_model(*file, options, diagnostics, description)) return std::nullopt;
     description.inputs = std::move(file->files);

@@ -6,6 +6,7 @@
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/import_options.h"
+#include "runtime/scene/description/scene_source.h"
 
 namespace kinora {
 
@@ -19,7 +20,7 @@ namespace kinora {
 //
 // Findings have the JSON pointer of what they speak of, and its line and column (of a .glb: in its
 // JSON chunk). Nothing is returned where there is no scene to show.
-std::optional<SceneDescription> import_gltf(const std::string& path, const ImportOptions& options,
+std::optional<SceneDescription> import_gltf(const SceneSource& source, const ImportOptions& options,
                                             Diagnostics& diagnostics);
 
 }  // namespace kinora

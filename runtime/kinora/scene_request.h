@@ -1,5 +1,5 @@
-// runtime/programs/open/scene_request.h: a scene and how it is to be seen, as the options of
-// kinora-render and kinora-play say it.
+// runtime/kinora/scene_request.h: a scene and how it is to be seen. Each member is an option of
+// kinora-render and kinora-play.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/programs/common/finding_printer.h"
-#include "runtime/programs/common/frame_list.h"
+#include "runtime/kinora/frame_list.h"
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/images/image_io.h"
 #include "runtime/scene/quality/quality.h"
@@ -58,8 +57,10 @@ struct SceneRequest {
     bool ignore_required = false;
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too
-    FindingOptions findings;
+    bool strict = false;                      // what is missing or left out is an error
     std::vector<std::string> words;  // what was given of the scene's options, one word each
+
+    Judgement judgement() const { return strict ? Judgement::Strict : Judgement::Rendering; }
 };
 
 }  // namespace kinora

@@ -1,4 +1,4 @@
-// runtime/programs/disassembly/disassembly.h: machine code of a kernel beside the shader's lines.
+// runtime/kinora/disassembly/disassembly.h: machine code of a kernel beside the shader's lines.
 #pragma once
 
 #include <string>

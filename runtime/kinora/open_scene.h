@@ -1,14 +1,15 @@
-// runtime/programs/open/open_scene.h: from what a command line asks for to a scene ready for
-// frames.
+// runtime/kinora/open_scene.h: from a request to a scene ready for frames.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "runtime/base/diagnostic.h"
+#include "runtime/kinora/scene_request.h"
 #include "runtime/picture/frame/frame.h"
 #include "runtime/picture/frame/redice.h"
-#include "runtime/programs/open/scene_request.h"
 
 namespace kinora {
 
@@ -23,10 +24,15 @@ struct ImportedScene {
 // "X,Y,Z"; nothing if it is not that.
 std::optional<dvec3> parse_point(const std::string& text);
 
-// Reads and changes. Nothing where the file is no scene. Findings;
-// where some of them has an exit code (below), no picture is to be made.
-std::optional<ImportedScene> import_requested(const SceneRequest& request,
-                                              Diagnostics& diagnostics);
+// Which findings of the request's scene are errors. Called before import_requested.
+void judge_by(const SceneRequest& request, Diagnostics& diagnostics);
+
+// Reads the file, or what was its content (`bytes`; the file need not be there), and changes what
+// the request says. Nothing where it is no scene. Findings say why; forbidding_error() of them says
+// whether a picture may be made.
+std::optional<ImportedScene> import_requested(
+    const SceneRequest& request, Diagnostics& diagnostics,
+    const std::optional<std::string_view>& bytes = std::nullopt);
 
 struct BuiltScene {
     std::unique_ptr<Scene> scene;      // null: findings say why
@@ -52,9 +58,5 @@ int64_t first_frame(FrameRate rate, double start);
 
 // When a frame is, or what lies between two.
 double seconds_of(FrameRate rate, double frame);
-
-// The exit code that errors among the findings call for: of a shader, of an option. `otherwise`
-// where none does.
-int exit_code_of_findings(const Diagnostics& diagnostics, int otherwise);
 
 }  // namespace kinora

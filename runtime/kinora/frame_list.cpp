@@ -1,5 +1,5 @@
-// runtime/programs/common/frame_list.cpp: frame ranges, frame rates, numbered file names.
-#include "runtime/programs/common/frame_list.h"
+// runtime/kinora/frame_list.cpp: frame ranges, frame rates, numbered file names.
+#include "runtime/kinora/frame_list.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// tests/programs/common/frame_list_test.cpp: frame ranges, exact times, numbered names.
-#include "runtime/programs/common/frame_list.h"
+// tests/runtime/kinora/frame_list_test.cpp: frame ranges, exact times, numbered names.
+#include "runtime/kinora/frame_list.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-// runtime/programs/open/open_scene.cpp: import, what the options change, and the build.
-#include "runtime/programs/open/open_scene.h"
+// runtime/kinora/open_scene.cpp: import, what the options change, and the build.
+#include "runtime/kinora/open_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "runtime/base/parallel.h"
+#include "runtime/kinora/scene_error.h"
 #include "runtime/picture/frame/exposure.h"
 #include "runtime/picture/frame/own_lights.h"
-#include "runtime/programs/common/exit_codes.h"
 #include "runtime/scene/build/build_scene.h"
 #include "runtime/scene/build/defaults.h"
 #include "runtime/scene/camera.h"
@@ -121,10 +121,17 @@ int64_t first_frame(FrameRate rate, double start) {
     return std::abs(frame) < kFurthestFrame ? int64_t(frame) : 0;
 }
 
-std::optional<ImportedScene> import_requested(const SceneRequest& request,
-                                              Diagnostics& diagnostics) {
+void judge_by(const SceneRequest& request, Diagnostics& diagnostics) {
+    diagnostics.judge(request.judgement());
+    if (request.strict) diagnostics.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
+}
+
+std::optional<ImportedScene> import_requested(const SceneRequest& request, Diagnostics& diagnostics,
+                                              const std::optional<std::string_view>& bytes) {
     check_target(request, diagnostics);
-    auto description = import_scene(request.scene, import_options(request), diagnostics);
+    SceneSource source = request.scene;
+    source.bytes = bytes;
+    auto description = import_scene(source, import_options(request), diagnostics);
     if (!description) {
         auto no_scene = [](const Finding& f) {
             return f.info->code == std::string_view("SCENE_NONE");
@@ -144,7 +151,7 @@ BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,
     BuiltScene built;
     if (may_dice(imported.description, imported.options))
         built.redicer = std::make_unique<Redicer>(imported.description, imported.options);
-    if (exit_code_of_findings(diagnostics, 0) == 0)
+    if (forbidding_error(diagnostics) == SceneError::None)
         built.scene =
             build_scene(std::make_shared<SceneDescription>(std::move(imported.description)),
                         imported.options, diagnostics, again);
@@ -191,19 +198,6 @@ uint32_t frame_seed(const SceneRequest& request, int64_t frame) {
 double seconds_of(FrameRate rate, double frame) {
     double whole = std::round(frame);
     return frame == whole ? rate.time(int64_t(whole)) : frame / rate.value();
-}
-
-int exit_code_of_findings(const Diagnostics& diagnostics, int otherwise) {
-    for (const Finding& finding : diagnostics.findings()) {
-        if (finding.severity != Severity::Error) continue;
-        if (std::string_view(finding.info->code).starts_with("RSL_")) return kExitShader;
-        for (const FindingInfo* usage :
-             {&Code::CAMERA_UNKNOWN, &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
-              &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN, &Code::PARAM_VALUE,
-              &Code::NODE_UNKNOWN, &Code::AOV_UNKNOWN, &Code::CAMERA_PARALLEL})
-            if (finding.info == usage) return kExitUsage;
-    }
-    return otherwise;
 }
 
 }  // namespace kinora

@@ -1,4 +1,4 @@
-// runtime/programs/common/frame_list.h: which frames, at what times, to which files.
+// runtime/kinora/frame_list.h: which frames, at what times, to which files.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// runtime/programs/disassembly/disassembly.cpp: machine code of a kernel beside the shader's lines,
+// runtime/kinora/disassembly/disassembly.cpp: machine code of a kernel beside the shader's lines,
 // by Capstone.
-#include "runtime/programs/disassembly/disassembly.h"
+#include "runtime/kinora/disassembly/disassembly.h"
 
 #include <capstone/capstone.h>
 #include <fmt/format.h>
