@@ -318,7 +318,7 @@ std::jthread open_ray_tracer_early() {
         return std::jthread([] {
             try {
                 opened<Embree>();
-            } catch (const std::bad_alloc&) {  // the first Accel meets it again
+            } catch (const std::exception&) {  // the first Accel meets it again
             }
         });
     } catch (const std::system_error&) {  // the caller opens it when it needs it

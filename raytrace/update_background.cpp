@@ -27,7 +27,7 @@ void Updater::start_background() {
     build.thread = std::thread([&build] {
         try {
             build.scene.commit();
-        } catch (const std::bad_alloc&) {
+        } catch (const std::exception&) {
             build.failed = true;
         }
         build.done.store(true, std::memory_order_release);

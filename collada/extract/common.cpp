@@ -5,6 +5,7 @@
 #include "collada/document/element_numbers_p.h"
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/numbers.h"
 
 namespace kinora::collada {
 
@@ -127,15 +128,25 @@ void read_extras(Extraction& x, Link owner, CommonShading& common, Effect& effec
     }
 }
 
+}  // namespace
+
+std::optional<int> blender_version(std::string_view tool) {
+    constexpr std::string_view kName = "Blender ";
+    int version[2];
+    if (!tool.starts_with(kName)) return std::nullopt;
+    tool.remove_prefix(kName.size());
+    if (!take_numbers<int>(tool, '.', version)) return std::nullopt;
+    return version[0] > 99 ? 9999 : 100 * version[0] + version[1];
+}
+
+namespace {
+
 // Blender wrote its "emit" as a grey <emission> until 2.79: its renderer added so many times the
 // diffuse color. Since 2.80 it writes the color that is emitted. Other exporters for Blender
 // (their tools' names begin otherwise) multiply by the diffuse color themselves.
 bool wrote_emit(std::string_view tool) {
-    int major = 0, minor = 0;
-    std::string text(tool.substr(0, 64));
-    if (std::sscanf(text.c_str(), "Blender %d.%d", &major, &minor) == 2)
-        return major < 2 || (major == 2 && minor < 80);
-    return text.starts_with("Blender v:2") || text.starts_with("Illusoft Collada");
+    if (const auto version = blender_version(tool)) return *version < kBlenderWatts;
+    return tool.starts_with("Blender v:2") || tool.starts_with("Illusoft Collada");
 }
 
 bool is_grey(const CommonValue& value) {

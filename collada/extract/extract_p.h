@@ -204,6 +204,10 @@ const Element* find_kind(const Document& document, std::string_view id, Kinds ki
 Asset read_asset(const Document& document, Diagnostics& diag);
 // What wrote the document, as it says itself: "Blender 2.93.0 commit date:...".
 std::string_view authoring_tool(const Document& document);
+// The version of Blender that an authoring tool's name begins with, such as 279 for 2.79; nothing
+// for other tools. Lights are in watts and emission is a color since kBlenderWatts.
+inline constexpr int kBlenderWatts = 280;
+std::optional<int> blender_version(std::string_view tool);
 void read_time_range(Extraction& x, Link visual_scene);
 
 // images.cpp -------------------------------------------------------------------------------

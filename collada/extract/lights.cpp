@@ -61,11 +61,9 @@ void check_light(Extraction& x, Light& light) {
 // Blender's lights are in watts since 2.80; before they were about 1. Where the version is lost, in
 // what another program made of its file, hundreds tell.
 bool in_watts(const Extraction& x, Link link, const Light& light) {
-    std::string tool(authoring_tool(x.document(link.doc)));
-    int major = 0, minor = 0;
-    bool known = std::sscanf(tool.c_str(), "Blender %d.%d", &major, &minor) == 2;
-    if (!known && !extra_technique(*link.element, "blender")) return false;
-    if (known && (major > 2 || (major == 2 && minor >= 80))) return true;
+    const auto version = blender_version(authoring_tool(x.document(link.doc)));
+    if (!version && !extra_technique(*link.element, "blender")) return false;
+    if (version && *version >= kBlenderWatts) return true;
     constexpr double kHundreds = 100;
     const auto& color = light[LightSlot::Color].values;
     return std::max({color[0], color[1], color[2]}) >= kHundreds;

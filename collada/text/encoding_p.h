@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "collada/text/byte_range.h"
-#include "runtime/base/percent_encoding.h"
+#include "runtime/base/uri/percent_encoding.h"
 
 namespace kinora::collada {
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 
 #include "rsl/model/renderer_services.h"
+#include "runtime/base/numbers.h"
 
 namespace kinora::rsl {
 
@@ -85,6 +87,22 @@ std::string limited(std::string_view flags) {
     return result;
 }
 
+// While it lives, this thread writes a point before decimals, whatever the process's locale is.
+class InPlainLocale {
+  public:
+    InPlainLocale() : before_(uselocale(plain())) {}
+    ~InPlainLocale() { uselocale(before_); }
+    InPlainLocale(const InPlainLocale&) = delete;
+
+  private:
+    static locale_t plain() {
+        static const locale_t locale = newlocale(LC_ALL_MASK, "C", locale_t());
+        return locale;
+    }
+
+    const locale_t before_;
+};
+
 std::string number_text(std::string_view flags, char letter, float x) {
     if (letter == 'd' || letter == 'i') {
         if (std::isnan(x)) return "nan";
@@ -98,6 +116,7 @@ std::string number_text(std::string_view flags, char letter, float x) {
     if (flags.empty() && !fixed) return fmt::format("{}", x);
     char buffer[kMostDigits + 128];
     std::string format = "%" + limited(flags) + (fixed ? letter : 'f');
+    const InPlainLocale plain;
     std::snprintf(buffer, sizeof buffer, format.c_str(), double(x));
     return buffer;
 }
@@ -106,7 +125,8 @@ std::string string_text(std::string_view flags, int32_t id) {
     const std::string& text = interned(id);
     if (flags.empty()) return text;
     bool left = flags[0] == '-';
-    size_t width = size_t(std::min(std::abs(std::atoi(std::string(flags).c_str())), 255));
+    std::string_view width_text = flags;
+    size_t width = size_t(std::min(std::abs(take_number<int>(width_text).value_or(0)), 255));
     std::string padding(width > text.size() ? width - text.size() : 0, ' ');
     return left ? text + padding : padding + text;
 }

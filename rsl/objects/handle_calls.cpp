@@ -9,6 +9,7 @@
 
 #include "rsl/objects/expand.h"
 #include "rsl/syntax/copy_tree.h"
+#include "runtime/base/numbers.h"
 
 namespace kinora::rsl {
 
@@ -150,7 +151,7 @@ bool HandleCalls::variable(Expr*& slot) {
     auto& e = as<VariableExpr>(*slot);
     TreeBuilder make(ast_, e.span);
     if (e.name[0] == kNumber) {
-        slot = make.number(double(std::stoi(std::string(e.name.substr(1)))));
+        slot = make.number(number_of<double>(e.name.substr(1)).value_or(0));
         return true;
     }
     if (is_member(e.name)) {

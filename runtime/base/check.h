@@ -1,12 +1,19 @@
-// runtime/base/check.h: checks of ourselves. A failed CHECK is a bug in Kinora, never bad input.
+// runtime/base/check.h: checks of ourselves. A failed CHECK is a bug in Kinora, never bad input. It
+// throws, so that a program which uses the library loses one scene and not itself.
 #pragma once
 
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace kinora {
 
-// Prints "file:line: CHECK failed: text" to stderr and aborts.
+// What a failed CHECK throws; what() is "file:line: CHECK failed: text".
+class CheckFailed : public std::logic_error {
+  public:
+    using std::logic_error::logic_error;
+};
+
 [[noreturn]] void check_failed(const char* file, int line, const std::string& text);
 
 template <class A, class B>

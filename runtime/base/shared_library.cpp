@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <filesystem>
 #include <new>
@@ -46,10 +47,27 @@ void SharedLibrary::fail(const std::string& why) {
                          std::filesystem::path(file_).filename().string(), why, package_);
 }
 
-std::string module_path(std::string_view file) {
+namespace {
+
+// Of the library that this code is linked into; of a program, BIN/../lib.
+std::filesystem::path module_folder() {
+    Dl_info info{};
+    void* found = nullptr;
+    if (dladdr1(reinterpret_cast<const void*>(&module_path), &info, &found, RTLD_DL_LINKMAP) != 0) {
+        const auto* own = static_cast<const link_map*>(found);  // a program has no name in it
+        if (own && own->l_name && *own->l_name)
+            return std::filesystem::absolute(own->l_name).parent_path();
+    }
     std::error_code code;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", code);
-    return (program.parent_path().parent_path() / "lib" / file).string();
+    return program.parent_path().parent_path() / "lib";
+}
+
+}  // namespace
+
+std::string module_path(std::string_view file) {
+    static const std::filesystem::path folder = module_folder();  // before anyone changes directory
+    return (folder / file).string();
 }
 
 }  // namespace kinora

@@ -52,7 +52,8 @@ const Library& opened() {
     return library;
 }
 
-// Where a module of ours lies: BIN/../lib/FILE, in the build and where the programs are installed.
+// Where a module of ours lies: beside the library that this code is part of; for a program, in
+// BIN/../lib, in the build and where the programs are installed.
 std::string module_path(std::string_view file);
 
 }  // namespace kinora

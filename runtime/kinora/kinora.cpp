@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "runtime/base/check.h"
 #include "runtime/base/raise_findings.h"
 #include "runtime/base/stats.h"
 #include "runtime/scene/description/findings.h"
@@ -11,11 +12,59 @@
 
 namespace kinora {
 
+// What `body` returns; where a check of ourselves fails, a finding, and `otherwise`.
+template <class Body, class Result>
+Result OpenScene::checked(Result otherwise, const Body& body) {
+    try {
+        return body();
+    } catch (const CheckFailed& mistake) {
+        ++internal_checks_;
+        diagnostics_.report(Code::INTERNAL_CHECK, Location{}, mistake.what());
+        return otherwise;
+    }
+}
+
 OpenScene::OpenScene(SceneRequest request, Keep keep) : request_(std::move(request)), keep_(keep) {
     judge_by(request_, diagnostics_);
 }
 
 SceneError OpenScene::read(const std::optional<std::string_view>& bytes) {
+    return checked(SceneError::Internal, [&] { return read_source(bytes); });
+}
+
+SceneError OpenScene::build() {
+    return checked(SceneError::Internal, [&] { return build_source(); });
+}
+
+// A pose that a failed check left halfway begins anew.
+template <class Body>
+bool OpenScene::in_pose(const Body& body) {
+    const size_t before = internal_checks_;
+    const bool done = checked(false, body);
+    if (internal_checks_ != before && built_.scene)
+        built_.pose = std::make_unique<Pose>(*built_.scene);
+    return done;
+}
+
+bool OpenScene::pose(double seconds) {
+    return in_pose([&] { return pose_at(seconds); });
+}
+
+void OpenScene::ready_frames(const std::atomic<int>* stop) {
+    in_pose([&] {
+        settings_ = frame_settings(request_, scene(), pose(), diagnostics_, stop);
+        frames_ready_ = true;
+        return true;
+    });
+}
+
+bool OpenScene::render(double seconds, raytrace::Film& film, RenderedFrame* cost,
+                       const raytrace::Progress* progress) {
+    RenderedFrame own;
+    return in_pose([&] { return render_at(seconds, film, cost ? *cost : own, progress); });
+}
+
+SceneError OpenScene::read_source(const std::optional<std::string_view>& bytes) {
     built_ = {};
     imported_ = import_requested(request_, diagnostics_, bytes);
     if (!imported_) {
@@ -26,7 +75,7 @@ SceneError OpenScene::read(const std::optional<std::string_view>& bytes) {
     return imported_->clip_known ? SceneError::None : SceneError::Request;
 }
 
-SceneError OpenScene::build() {
+SceneError OpenScene::build_source() {
     built_ = {};
     frames_ready_ = false;
     if (!imported_) return SceneError::Unreadable;
@@ -45,12 +94,16 @@ SceneError OpenScene::open(const std::optional<std::string_view>& bytes) {
 }
 
 bool OpenScene::set_shader(const std::string& pattern, const std::string& shader) {
-    return imported_ && override_shader(imported_->description, pattern,
-                                        {shader, request_.include_directories}, diagnostics_);
+    return imported_ && checked(false, [&] {
+               return override_shader(imported_->description, pattern,
+                                      {shader, request_.include_directories}, diagnostics_);
+           });
 }
 
 bool OpenScene::set_param(const std::string& target, const std::string& value) {
-    return imported_ && override_param(imported_->description, target, value, diagnostics_);
+    return imported_ && checked(false, [&] {
+               return override_param(imported_->description, target, value, diagnostics_);
+           });
 }
 
 void OpenScene::set_camera(const std::string& name) {
@@ -63,23 +116,18 @@ void OpenScene::set_quality(const Quality& quality) {
     if (imported_) imported_->options.quality = quality;
 }
 
-void OpenScene::ready_frames(const std::atomic<int>* stop) {
-    settings_ = frame_settings(request_, scene(), pose(), diagnostics_, stop);
-    frames_ready_ = true;
-}
-
-bool OpenScene::pose(double seconds) {
+bool OpenScene::pose_at(double seconds) {
     if (!frames_ready_) ready_frames();
+    if (!frames_ready_) return false;
     FrameStats stats;
     settings_.most_dice_error = 0;
     return pose_frame(scene(), pose(), seconds, settings_, stats, diagnostics_);
 }
 
-bool OpenScene::render(double seconds, raytrace::Film& film, RenderedFrame* cost,
-                       const raytrace::Progress* progress) {
+bool OpenScene::render_at(double seconds, raytrace::Film& film, RenderedFrame& c,
+                          const raytrace::Progress* progress) {
     if (!frames_ready_) ready_frames();
-    RenderedFrame own;
-    RenderedFrame& c = cost ? *cost : own;
+    if (!frames_ready_) return false;
     auto render = [&](const Scene& scene, Pose& pose, double most_dice_error) {
         settings_.most_dice_error = most_dice_error;
         return render_frame(scene, pose, seconds, settings_, film, c.stats, diagnostics_, progress);

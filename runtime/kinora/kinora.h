@@ -7,7 +7,8 @@
 //     raytrace::Film film;
 //     if (scene.open() == SceneError::None && scene.render(0.5, film)) ...
 //
-// Nothing is printed: findings say what is wrong with the scene or the request.
+// Nothing is printed: findings say what is wrong with the scene or the request. A failed CHECK of
+// ourselves is INTERNAL_CHECK among them and ends the call, no more.
 #pragma once
 
 #include <atomic>
@@ -81,6 +82,16 @@ class OpenScene {
     void keep(Keep keep) { keep_ = keep; }
 
   private:
+    template <class Body, class Result>
+    Result checked(Result otherwise, const Body& body);
+    template <class Body>
+    bool in_pose(const Body& body);
+    SceneError read_source(const std::optional<std::string_view>& bytes);
+    SceneError build_source();
+    bool pose_at(double seconds);
+    bool render_at(double seconds, raytrace::Film& film, RenderedFrame& c,
+                   const raytrace::Progress* progress);
+
     SceneRequest request_;
     Keep keep_;
     Diagnostics diagnostics_;
@@ -88,6 +99,7 @@ class OpenScene {
     BuiltScene built_;
     FrameSettings settings_;
     bool frames_ready_ = false;
+    size_t internal_checks_ = 0;  // that failed
     FrameRate rate_;
 };
 

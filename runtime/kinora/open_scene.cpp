@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/base/numbers.h"
 #include "runtime/base/parallel.h"
 #include "runtime/kinora/scene_error.h"
 #include "runtime/picture/frame/exposure.h"
@@ -40,6 +41,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.background_rebuilds = false;  // a frame depends on its time alone
     o.decode_textures = request.color == ColorEncoding::Srgb;
     o.aovs = request.aovs;
+    o.print = request.print;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
     o.width = scaled(request, request.width ? request.width : 640);
     o.height = request.height ? scaled(request, request.height) : 0;
@@ -109,11 +111,10 @@ void set_range(ImportedScene& imported, const SceneRequest& request) {
 }  // namespace
 
 std::optional<dvec3> parse_point(const std::string& text) {
-    dvec3 p;
-    char tail = 0;
-    bool three = std::sscanf(text.c_str(), "%lf,%lf,%lf%c", &p.x, &p.y, &p.z, &tail) == 3;
-    if (!three || !std::isfinite(p.x + p.y + p.z)) return std::nullopt;
-    return p;
+    double p[3];
+    if (!read_numbers<double>(text, ',', p) || !std::isfinite(p[0] + p[1] + p[2]))
+        return std::nullopt;
+    return dvec3(p[0], p[1], p[2]);
 }
 
 int64_t first_frame(FrameRate rate, double start) {

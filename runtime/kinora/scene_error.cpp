@@ -22,6 +22,7 @@ const FindingInfo* const kOfTheRequest[] = {
 SceneError forbidding_error(const Diagnostics& diagnostics, SceneError otherwise) {
     for (const Finding& finding : diagnostics.findings()) {
         if (finding.severity != Severity::Error) continue;
+        if (finding.info == &Code::INTERNAL_CHECK) return SceneError::Internal;
         if (std::string_view(finding.info->code).starts_with("RSL_")) return SceneError::Shader;
         if (std::ranges::find(kOfTheRequest, finding.info) != std::end(kOfTheRequest))
             return SceneError::Request;

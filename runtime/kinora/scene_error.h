@@ -14,10 +14,11 @@ enum class SceneError : uint8_t {
     Request,     // an option names what the scene lacks, or has a value that it cannot have
     Shader,      // a shader has errors
     Memory,      // there is not enough memory
+    Internal,    // a check of ourselves failed (CheckFailed)
 };
 
-// The first error among the findings that forbids a picture: Shader or Request. `otherwise` where
-// there is none.
+// The first error among the findings that forbids a picture: Internal, Shader or Request.
+// `otherwise` where there is none.
 SceneError forbidding_error(const Diagnostics& diagnostics,
                             SceneError otherwise = SceneError::None);
 

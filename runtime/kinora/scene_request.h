@@ -58,6 +58,7 @@ struct SceneRequest {
     std::vector<std::string> allow_external;  // folders
     bool confine = false;                     // pictures too
     bool strict = false;                      // what is missing or left out is an error
+    PrintTo print;                            // of shaders
     std::vector<std::string> words;  // what was given of the scene's options, one word each
 
     Judgement judgement() const { return strict ? Judgement::Strict : Judgement::Rendering; }

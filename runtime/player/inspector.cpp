@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/tasks/thread_priority.h"
 #include "runtime/picture/frame/frame.h"
@@ -106,6 +107,8 @@ void Inspector::run() {
         try {
             answer = inspect(inspection);
         } catch (const std::bad_alloc&) {  // nothing is found
+            posed_.reset();
+        } catch (const CheckFailed&) {  // the picture's thread tells of it
             posed_.reset();
         }
         lock.lock();

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/base/check.h"
 #include "runtime/picture/frame/frame.h"
 #include "runtime/player/denoise/denoiser.h"
 #include "runtime/player/pace/pacer.h"
@@ -427,6 +428,10 @@ RenderLoop::Outcome RenderLoop::make(const Step& step) {
     } catch (const std::bad_alloc&) {
         std::lock_guard lock(mutex_);
         findings_.push_back(plain_finding("MEMORY", "there is not enough memory for the picture"));
+    } catch (const CheckFailed& mistake) {
+        std::lock_guard lock(mutex_);
+        findings_.push_back(plain_finding(
+            "INTERNAL_CHECK", std::string("a mistake of Kinora itself: ") + mistake.what()));
     }
     times = {
         stats.animate,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "jit/compiler.h"
+#include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
 #include "runtime/picture/frame/frame.h"
@@ -194,6 +195,11 @@ void SceneMaker::make(const Order& order, MadeScene& made) {
         swapper_.reset();  // it may be that of a scene that is not shown
         made.error = SceneError::Memory;
         made.findings.push_back(plain_finding("MEMORY", "there is not enough memory"));
+    } catch (const CheckFailed& mistake) {
+        made.shown.reset();
+        swapper_.reset();
+        made.error = SceneError::Internal;
+        made.diagnostics->report(Code::INTERNAL_CHECK, Location{}, mistake.what());
     }
     auto found = take_findings(*made.diagnostics);
     made.findings.insert(made.findings.end(), found.begin(), found.end());

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/tasks/thread_priority.h"
 #include "runtime/picture/frame/frame.h"
@@ -119,6 +120,7 @@ void Thumbnails::run() {
         try {
             make(order);
         } catch (const std::bad_alloc&) {  // there are as many as there is memory for
+        } catch (const CheckFailed&) {     // the picture's thread tells of it
         }
         lock.lock();
         working_ = false;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,9 @@ struct ViewOptions {
     bool any_place() const { return follow || turn_seconds > 0 || from || at || !at_node.empty(); }
 };
 
+// Takes what printf of shaders writes, in an order that is known; empty: nobody hears it.
+using PrintTo = std::function<void(std::string_view text)>;
+
 struct SceneOptions {
     // A view (runtime/scene/build/views.h), or a node path or id or a camera id, the latter also
     // behind
@@ -51,6 +56,7 @@ struct SceneOptions {
     int width = 640, height = 0;    // of the picture that dicing is for; 0: from the camera
     std::vector<std::pair<std::string, std::string>> dumps;  // filled when want_dumps
     bool want_dumps = false;
+    PrintTo print;
 };
 
 // The settings as the ray tracer and the sampler take them.

@@ -268,7 +268,12 @@ void Rendering::load(const std::string& path, const SceneOptions& options) {
     import_options.allow_external = {project_folder() + "/assets/shaders"};  // tests include them
     auto description = import_scene(path, import_options, diagnostics);
     if (!description) return;
-    scene = build_scene(std::make_shared<SceneDescription>(std::move(*description)), options,
+    SceneOptions printing = options;
+    if (!printing.print)
+        printing.print = [](std::string_view text) {
+            std::fwrite(text.data(), 1, text.size(), stdout);
+        };
+    scene = build_scene(std::make_shared<SceneDescription>(std::move(*description)), printing,
                         diagnostics);
     if (scene) pose = std::make_unique<Pose>(*scene);
 }

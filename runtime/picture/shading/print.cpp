@@ -2,7 +2,6 @@
 #include "runtime/picture/shading/print.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -82,7 +81,8 @@ void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
         std::move(sum.prints.begin(), sum.prints.end(), std::back_inserter(all));
     }
     std::sort(all.begin(), all.end());
-    for (const Print& print : all) std::fputs(print.text.c_str(), stdout);
+    for (const Print& print : all)
+        if (scene.options.print) scene.options.print(print.text);
 }
 
 }  // namespace kinora

@@ -14,6 +14,7 @@
 #include <string>
 #include <system_error>
 
+#include "runtime/base/check.h"
 #include "runtime/programs/common/finish.h"
 
 namespace kinora {
@@ -70,6 +71,9 @@ int run_program(const char* program, const Body& body) {
     run_program_detail::g_terminate_before = std::set_terminate(run_program_detail::terminate);
     try {
         return finish(body(), program);
+    } catch (const CheckFailed& mistake) {
+        std::fprintf(stderr, "%s: a mistake of the program itself: %s\n", program, mistake.what());
+        return kExitInternal;
     } catch (const std::exception&) {
         const char* missing = missing_resource(std::current_exception());
         if (*missing == '\0') throw;

@@ -18,6 +18,8 @@ inline int exit_code_of(SceneError error) {
             return kExitShader;
         case SceneError::Memory:
             return kExitRetry;
+        case SceneError::Internal:
+            return kExitInternal;
     }
     return kExitUnreadable;
 }

@@ -8,6 +8,8 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <string_view>
 
 namespace kinora {
 
@@ -18,6 +20,11 @@ inline void ready_standard_streams() {
     std::signal(SIGPIPE, SIG_IGN);
     for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) open("/dev/null", O_RDWR);
+}
+
+// Where shaders print (SceneOptions::print).
+inline auto print_to(std::FILE* stream) {
+    return [stream](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); };
 }
 
 // Whether nobody can read any more what is written there: poll(2) says so of pipes and sockets.

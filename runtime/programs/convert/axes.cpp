@@ -8,6 +8,7 @@
 
 #include "collada/document/edit.h"
 #include "collada/document/write.h"
+#include "runtime/base/numbers.h"
 #include "runtime/programs/convert/axes_p.h"
 #include "runtime/programs/convert/convert.h"
 #include "runtime/scene/description/findings.h"
@@ -60,6 +61,10 @@ class AxisChange {
     }
 
   private:
+    static double take_number_or_0(std::string_view text) {
+        return take_number<double>(text).value_or(0);
+    }
+
     void read_asset() {
         asset_ = document_.root().child("asset");
         const Element* up = asset_ ? asset_->child("up_axis") : nullptr;
@@ -67,7 +72,7 @@ class AxisChange {
         for (size_t i = 0; up && i < 3; ++i)
             if (trimmed(up->text) == kAxisNames[i]) old_up_ = UpAxis(i);
         if (!unit || !unit->attribute("meter")) return;
-        double meter = std::strtod(std::string(unit->value("meter")).c_str(), nullptr);
+        double meter = take_number_or_0(unit->value("meter"));
         if (meter > 0 && std::isfinite(meter)) old_meter_ = meter;
     }
 
@@ -134,7 +139,7 @@ class AxisChange {
         if (scale_ == 1) return;
         for (const Row& row : kLengths) {
             if (e.name != row.name || !collada::holds_numbers(e)) continue;
-            double value = std::strtod(std::string(trimmed(e.text)).c_str(), nullptr);
+            double value = take_number_or_0(e.text);
             edits_.push_back(replace_content(
                 e, collada::shortest_number(value * std::pow(scale_, row.power)), text_));
             if (!e.value("sid").empty()) length_sids_.insert(std::string(e.value("sid")));
@@ -144,7 +149,7 @@ class AxisChange {
     // An <asset> inside: its unit keeps its ratio to the document's. No axes do so for all turns.
     void change_inner_asset(const Element& asset) {
         const Element* unit = asset.child("unit");
-        double meter = unit ? std::strtod(std::string(unit->value("meter")).c_str(), nullptr) : 0.0;
+        double meter = unit ? take_number_or_0(unit->value("meter")) : 0.0;
         if (scale_ != 1 && unit && unit->attribute("meter") && meter > 0 && std::isfinite(meter)) {
             double changed = meter / scale_;
             edits_.push_back(

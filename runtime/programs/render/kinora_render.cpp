@@ -162,9 +162,9 @@ void Render::flush_findings() {
 int Render::load() {
     Stopwatch watch;
     const SceneError unread = scene_.read();
-    if (unread == SceneError::Unreadable) {
+    if (unread == SceneError::Unreadable || unread == SceneError::Internal) {
         flush_findings();
-        return report_unreadable();
+        return unread == SceneError::Internal ? exit_code_of(unread) : report_unreadable();
     }
     load_ms_ = watch.restart();
     if (unread != SceneError::None) {

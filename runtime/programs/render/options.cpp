@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/base/file_extension.h"
+#include "runtime/base/numbers.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/kinora/open_scene.h"
 #include "runtime/programs/common/command_line.h"
@@ -26,19 +27,18 @@ constexpr double kMostFilterWidth = 64;  // pixels
 constexpr std::string_view kNotOfThePicture[] = {"scene",  "--session", "--frames",  "--time",
                                                  "--help", "--version", "--threads", "--target"};
 void parse_size(const std::string& text, RenderOptions& o) {
-    char tail = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &o.width, &o.height, &tail) != 2 || o.width < 1 ||
-        o.height < 1 || o.width > 65536 || o.height > 65536)
+    int size[2];
+    if (!read_numbers<int>(text, 'x', size) || size[0] < 1 || size[1] < 1 || size[0] > 65536 ||
+        size[1] > 65536)
         throw CLI::ValidationError("--size", "takes WIDTHxHEIGHT, each 1 to 65536");
+    o.width = size[0], o.height = size[1];
 }
 
 vec3 parse_color(const std::string& text) {
-    vec3 c;
-    char tail = 0;
-    if (std::sscanf(text.c_str(), "%f,%f,%f%c", &c.x, &c.y, &c.z, &tail) != 3 ||
-        !std::isfinite(c.x + c.y + c.z))
+    float c[3];
+    if (!read_numbers<float>(text, ',', c) || !std::isfinite(c[0] + c[1] + c[2]))
         throw CLI::ValidationError("--background", "takes R,G,B");
-    return c;
+    return {c[0], c[1], c[2]};
 }
 
 void choose_target(const std::string& name, RenderOptions& o) {

@@ -12,10 +12,13 @@
 #include "runtime/player/session/session.h"
 #include "runtime/programs/common/finding_printer.h"
 #include "runtime/programs/common/progress.h"
+#include "runtime/programs/common/standard_streams.h"
 
 namespace kinora {
 
 struct RenderOptions : SceneRequest {
+    RenderOptions() { print = print_to(stdout); }
+
     FindingOptions findings;
     std::string output;
     bool discard = false;  // -o null: pictures are rendered and not written

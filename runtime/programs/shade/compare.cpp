@@ -1,5 +1,6 @@
 // runtime/programs/shade/compare.cpp: differences to the interpreter and the reference.
 #include "runtime/programs/shade/compare.h"
+#include "runtime/programs/common/standard_streams.h"
 
 #include <algorithm>
 #include <bit>
@@ -71,7 +72,7 @@ rsl::ReferenceService reference_service(const Patch& patch, const ShadeKernel& k
         PatchHost host(patch, printed);
         find_service(rsl::service_name(service))(
             {static_cast<KernelHost*>(&host), in.data(), out.data(), 1, 0, 1});
-        printed.show();
+        printed.show(print_to(stdout));
         std::vector<double> answer;
         for (size_t r = 0; r < results.size(); ++r) {
             float value = out[r * jit::kMaxLanes];

@@ -1,5 +1,6 @@
 // runtime/programs/shade/kernel.cpp: lowers, compiles and runs shaders over a patch.
 #include "runtime/programs/shade/kernel.h"
+#include "runtime/programs/common/standard_streams.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,7 +147,7 @@ void ShadeKernel::run() {
                    arena_);
         arena_.release(mark);
     }
-    prints_.show();
+    prints_.show(print_to(stdout));
 }
 
 ShadeOutputs ShadeKernel::outputs() const {

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "rsl/lint/lint.h"
+#include "runtime/base/numbers.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/shade/manual_pages.h"
 #include "runtime/programs/shade/source.h"
@@ -16,10 +17,11 @@ constexpr const char* kSourcesHelp =
     "FILE.sl, SCENE.dae (all its effects), SCENE.dae#EFFECT, or - for standard input";
 
 void parse_size(const std::string& text, ShadeOptions& o) {
-    char tail = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &o.width, &o.height, &tail) != 2 || o.width < 1 ||
-        o.height < 1 || o.width > 16384 || o.height > 16384)
+    int size[2];
+    if (!read_numbers<int>(text, 'x', size) || size[0] < 1 || size[1] < 1 || size[0] > 16384 ||
+        size[1] > 16384)
         throw CLI::ValidationError("--size", "takes WIDTHxHEIGHT, each 1 to 16384");
+    o.width = size[0], o.height = size[1];
 }
 
 void choose_target(const std::string& name, ShadeOptions& o) {

@@ -1,5 +1,6 @@
 // runtime/programs/shade/points_kernel.cpp: compiles shaders and runs them over points of a file.
 #include "runtime/programs/shade/points_kernel.h"
+#include "runtime/programs/common/standard_streams.h"
 
 #include <algorithm>
 
@@ -59,7 +60,7 @@ void PointsKernel::run(const PointSet& points, const PointsStack& stack, Texture
     out_ = run(points.count(), fill, host, records, arena_);
     shader_ = stack.layers.back().shader->name;
     printed_ = host.printed();
-    printed_.show(stderr);
+    printed_.show(print_to(stderr));
 }
 
 int PointsKernel::find_output(const rsl::KernelKey& key) const {

@@ -13,6 +13,7 @@
 #include "collada/document/document.h"
 #include "collada/document/edit.h"
 #include "collada/document/write.h"
+#include "runtime/base/numbers.h"
 #include "runtime/scene/dae/export_p.h"
 #include "runtime/scene/description/display_color.h"
 #include "runtime/scene/description/findings.h"
@@ -90,7 +91,7 @@ dvec3 short_display_color(const dvec3& linear, double error) {
     for (int digits = 6; digits < 17; ++digits) {
         dvec3 rounded;
         for (int k = 0; k < 3; ++k)
-            rounded[k] = std::strtod(fmt::format("{:.{}g}", display[k], digits).c_str(), nullptr);
+            rounded[k] = number_of<double>(fmt::format("{:.{}g}", display[k], digits)).value_or(0);
         dvec3 off = glm::abs(linear_of_display(rounded) - linear);
         if (glm::all(glm::lessThanEqual(off, error * glm::abs(linear)))) return rounded;
     }

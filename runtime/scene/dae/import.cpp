@@ -7,6 +7,7 @@
 
 #include "collada/document/open_scene.h"
 #include "collada/extract/extract.h"
+#include "runtime/base/numbers.h"
 #include "runtime/scene/dae/import_p.h"
 #include "runtime/scene/description/display_color.h"
 
@@ -238,10 +239,9 @@ static UserAttribute user_attribute(const std::string& name, const std::string& 
     UserAttribute attribute{name, {}, text};
     std::istringstream words(text);
     for (std::string word; words >> word;) {
-        char* end = nullptr;
-        double number = std::strtod(word.c_str(), &end);
-        if (*end != '\0') return {name, {}, text};
-        attribute.numbers.push_back(number);
+        const std::optional<double> number = number_of<double>(word);
+        if (!number) return {name, {}, text};
+        attribute.numbers.push_back(*number);
     }
     return attribute;
 }

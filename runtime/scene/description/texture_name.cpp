@@ -2,6 +2,7 @@
 // "path\x1fwwfd b b b b c s u u u u m i x": wraps, filter, data; border, turn, uv; mip, bias,
 // level.
 #include "runtime/scene/description/texture_name.h"
+#include "runtime/base/numbers.h"
 
 #include <fmt/format.h>
 
@@ -46,17 +47,15 @@ TextureName parse_texture_name(std::string_view text) {
     name.nearest_magnified = rest[2] == 'g';
     name.nearest_minified = rest[2] == 's';
     name.data = rest[3] == 'd';
-    const char* at = rest.c_str() + 4;
-    char* end = nullptr;
+    std::string_view numbers = text.substr(separator + 5);
     for (float* value :
          {&name.border[0], &name.border[1], &name.border[2], &name.border[3], &name.turn[0],
           &name.turn[1], &name.uv[0], &name.uv[1], &name.uv[2], &name.uv[3]}) {
-        *value = std::strtof(at, &end);
-        at = end;
+        *value = take_number<float>(numbers).value_or(0.0f);
     }
-    name.mip = TextureMip(std::clamp(std::strtol(at, &end, 10), 0L, 2L));
-    name.mip_bias = std::strtof(end, &end);
-    name.mip_max_level = uint8_t(std::clamp(std::strtol(end, &end, 10), 0L, 255L));
+    name.mip = TextureMip(std::clamp(take_number<int>(numbers).value_or(0), 0, 2));
+    name.mip_bias = take_number<float>(numbers).value_or(0.0f);
+    name.mip_max_level = uint8_t(std::clamp(take_number<int>(numbers).value_or(0), 0, 255));
     return name;
 }
 

@@ -1,7 +1,6 @@
 // runtime/scene/shaders/printed_lines.cpp: printf of shaders in an order that is known.
 #include "runtime/scene/shaders/printed_lines.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "rsl/model/renderer_services.h"
@@ -40,8 +39,9 @@ void PrintedLines::add(PrintedLines&& others) {
     left_out_ = left_out_ || beyond > 0;
 }
 
-void PrintedLines::show(std::FILE* to) const {
-    for (const std::string& line : lines_) std::fputs(line.c_str(), to);
+void PrintedLines::show(const PrintTo& to) const {
+    for (const std::string& line : lines_)
+        if (to) to(line);
 }
 
 void PrintedLines::report(const std::string& shader, Diagnostics& diagnostics) const {

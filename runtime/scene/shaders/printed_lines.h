@@ -2,12 +2,12 @@
 // is known.
 #pragma once
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "jit/ir/kernel_call.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/scene/scene_options.h"
 
 namespace kinora {
 
@@ -26,7 +26,7 @@ class PrintedLines {
     void add(const jit::ServiceCall& call, int lane);
     // Behind these, others.
     void add(PrintedLines&& others);
-    void show(std::FILE* to = stdout) const;
+    void show(const PrintTo& to) const;
     void clear() { *this = {}; }
     uint64_t asked() const { return asked_; }
     size_t shown() const { return lines_.size(); }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "runtime/base/numbers.h"
 #include "runtime/scene/description/play_range.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/queries.h"
@@ -190,7 +191,9 @@ constexpr Row kRenderer[] = {
     {"version",
      [](const Asker&) {
          double v[3] = {};
-         std::sscanf(KINORA_VERSION, "%lf.%lf.%lf", &v[0], &v[1], &v[2]);
+         int part[3] = {};
+         read_numbers<int>(KINORA_VERSION, '.', part);
+         std::copy_n(part, 3, v);
          return Fact({v[0], v[1], v[2], 0.0});
      }},
     {"versionstring", [](const Asker&) { return Fact(std::string_view(KINORA_VERSION)); }},

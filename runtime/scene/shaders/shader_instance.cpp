@@ -122,7 +122,7 @@ void run_frame_kernel(const SceneKernel& kernel, const FrameContext& context, Fr
                       std::span<const dmat4> current_from_space, FrameBlock& block) {
     kernel.run_frame(block, SceneNumbers(context, current_from_space, kernel.inputs), host, {},
                      context.stop);
-    host.printed().show();
+    host.printed().show(context.scene.options.print);
 }
 
 void run_full(const ShaderInstance& look, const FrameContext& context, InstanceFrame& frame) {

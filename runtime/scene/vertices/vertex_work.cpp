@@ -267,7 +267,7 @@ void VertexWork::run_group(Pass& pass, size_t g) const {
         if (prints.asked() > 0) printed.add(std::move(prints));
         prints.clear();
     }
-    printed.show();
+    printed.show(pass.scene.options.print);
     for (uint32_t& n : state.not_finite) state.not_finite_total += std::exchange(n, 0);
 }
 

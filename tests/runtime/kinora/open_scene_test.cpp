@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "runtime/base/check.h"
 #include "tests/folders.h"
 
 namespace kinora {
@@ -140,6 +141,46 @@ TEST(OpenScene, IsBuiltAgainWithWhatWasSet) {
     EXPECT_TRUE(same_pixels(after, rendered(requested)));
     EXPECT_FALSE(requested.set_param("*.none", "1"));
     EXPECT_TRUE(requested.diagnostics().has_errors());
+}
+
+const char* const kSays = R"(surface says() { Oi = 1; Ci = 1; printf("seen\n"); })";
+
+// What shaders print goes where the request says, and nowhere else.
+TEST(OpenScene, HearsWhatShadersPrint) {
+    const std::string shader = testing::TempDir() + "says.sl";
+    std::ofstream(shader) << kSays;
+    SceneRequest request = of_assets("scenes/matte.dae");
+    request.shaders = {{"*", shader}};
+    testing::internal::CaptureStdout();
+    OpenScene silent(request);
+    ASSERT_EQ(silent.open(), SceneError::None) << text_of_findings(silent);
+    rendered(silent);
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    std::string heard;
+    request.print = [&](std::string_view text) { heard += text; };
+    OpenScene scene(request);
+    ASSERT_EQ(scene.open(), SceneError::None);
+    rendered(scene);
+    EXPECT_TRUE(heard.starts_with("seen\nseen\n"));
+}
+
+// A check of ourselves that fails within a frame ends the frame; the scene goes on.
+TEST(OpenScene, AFailedCheckIsAFinding) {
+    const std::string shader = testing::TempDir() + "says.sl";
+    std::ofstream(shader) << kSays;
+    SceneRequest request = of_assets("scenes/matte.dae");
+    request.shaders = {{"*", shader}};
+    bool fails = true;
+    request.print = [&](std::string_view) { CHECK(!fails); };
+    OpenScene scene(request);
+    ASSERT_EQ(scene.open(), SceneError::None);
+    raytrace::Film film;
+    EXPECT_FALSE(scene.render(0, film));
+    const std::string found = text_of_findings(scene);
+    EXPECT_NE(found.find("open_scene_test.cpp"), std::string::npos) << found;
+    EXPECT_NE(found.find("CHECK failed: !fails [INTERNAL_CHECK]"), std::string::npos) << found;
+    fails = false;
+    EXPECT_TRUE(scene.render(0, film));
 }
 
 TEST(OpenScene, APoseDependsOnItsTimeAlone) {

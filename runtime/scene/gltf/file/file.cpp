@@ -11,9 +11,10 @@
 #include <map>
 #include <span>
 
-#include "runtime/base/percent_encoding.h"
+#include "runtime/base/numbers.h"
 #include "runtime/base/regular_file.h"
 #include "runtime/base/uri/package_uri.h"
+#include "runtime/base/uri/percent_encoding.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/gltf/file/check.h"
 #include "runtime/scene/gltf/file/extensions.h"
@@ -146,14 +147,18 @@ Location error_location(const GltfFile& file, std::string& error) {
         if (end - at > kQuotedData) error.replace(at + kQuotedData, end - at - kQuotedData, "...");
     }
     if (error.size() > 300) error.resize(300);
-    size_t at = error.find("at line ");
-    int line = 0, column = 0;
-    if (at == std::string::npos ||
-        std::sscanf(error.c_str() + at, "at line %d, column %d", &line, &column) != 2)
-        return gltf_location(file, "");
+    auto number_behind = [&](std::string_view words) {
+        const size_t at = error.find(words);
+        if (at == error.npos) return std::optional<int>();
+        std::string_view rest = std::string_view(error).substr(at + words.size());
+        return take_number<int>(rest);
+    };
+    const std::optional<int> named = number_behind("at line "), column = number_behind(", column ");
+    if (!named || !column) return gltf_location(file, "");
     size_t offset = 0;
-    for (; line > 1 && offset < file.json.size(); ++offset) line -= file.json[offset] == '\n';
-    offset = std::min(offset + size_t(std::max(column - 1, 0)), file.json.size());
+    for (int line = *named; line > 1 && offset < file.json.size(); ++offset)
+        line -= file.json[offset] == '\n';
+    offset = std::min(offset + size_t(std::max(*column - 1, 0)), file.json.size());
     return {file.file, uint32_t(offset), uint32_t(offset)};
 }
 

@@ -1,5 +1,6 @@
 // runtime/scene/gltf/import/nodes.cpp: glTF's nodes with what hangs on them.
 #include "runtime/scene/gltf/import/nodes.h"
+#include "runtime/base/numbers.h"
 
 #include <fmt/format.h>
 
@@ -178,7 +179,7 @@ MeshUse NodeImporter::mesh_use(uint32_t node) {
         if (known) continue;
         MaterialUse& material = use.materials.emplace_back();
         material.symbol = group.symbol;
-        material.material = uint32_t(std::stoul(group.symbol));
+        material.material = number_of<uint32_t>(group.symbol).value_or(kNone);
         for (uint32_t set = 0; set < 8; ++set)
             material.vertex_bindings.push_back({fmt::format("TEXCOORD_{}", set), "TEXCOORD", set});
         std::span<const VertexBinding> inputs = materials_.vertex_inputs(material.material);

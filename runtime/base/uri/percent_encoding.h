@@ -1,4 +1,4 @@
-// runtime/base/percent_encoding.h: URIs as text.
+// runtime/base/uri/percent_encoding.h: URIs as text.
 #pragma once
 
 #include <string>

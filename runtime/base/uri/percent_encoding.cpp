@@ -1,5 +1,5 @@
-// runtime/base/percent_encoding.cpp: URIs as text.
-#include "runtime/base/percent_encoding.h"
+// runtime/base/uri/percent_encoding.cpp: URIs as text.
+#include "runtime/base/uri/percent_encoding.h"
 
 namespace kinora {
 
