@@ -127,6 +127,7 @@ void TileJob::begin_rays(size_t begin, size_t end) {
     set(r.tnear, 0.0f);
     set(r.tfar, std::numeric_limits<float>::infinity());
     for (float* column : {r.time, r.t_passed}) set(column, 0.0f);
+    set(r.sees, ~0u);
     for (float* column : {r.share, r.weight}) set(column, 1.0f);
     for (uint32_t* column : {r.layer, r.medium, r.turns, r.spent}) set(column, 0u);
     for (size_t k = begin; k < end; ++k) r.slot[k] = uint32_t(k);

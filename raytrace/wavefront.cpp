@@ -57,7 +57,7 @@ class Carver {
 };
 
 void carve(RayBatch& b, Carver& carver) {
-    carver(b.org), carver(b.dir), carver(b.tnear), carver(b.tfar), carver(b.time);
+    carver(b.org), carver(b.dir), carver(b.tnear), carver(b.tfar), carver(b.time), carver(b.sees);
     carver(b.dOdx), carver(b.dOdy), carver(b.dDdx), carver(b.dDdy);
     carver(b.window), carver(b.passed_first), carver(b.passed_last);
     carver(b.t_passed), carver(b.first_org);
@@ -98,7 +98,7 @@ void load_packet(const RayBatch& rays, size_t first, uint32_t mask, RayPacket16&
     std::memcpy(packet.dir_z, rays.dir[2] + first, bytes);
     std::memcpy(packet.tnear, rays.tnear + first, bytes);
     std::memcpy(packet.tfar, rays.tfar + first, bytes);
-    std::fill_n(packet.mask, kPacket, mask);
+    for (size_t i = 0; i < size_t(kPacket); ++i) packet.mask[i] = rays.sees[first + i] & mask;
     packet.passing = rays.passing;
     if (rays.passing) {
         std::memcpy(packet.window, rays.window + first, bytes);
@@ -237,6 +237,7 @@ void RayBatch::reserve(size_t capacity) {
     if (capacity <= capacity_) return;
     CHECK_EQ(count, 0u);
     allocate(*this, capacity, memory_);
+    std::fill_n(sees, round_up(capacity, kPacket), ~0u);
     capacity_ = capacity;
 }
 
@@ -354,7 +355,7 @@ void move_ray(RayBatch& r, size_t to, size_t from) {
     };
     move3(r.org), move3(r.dir), move3(r.dOdx), move3(r.dOdy), move3(r.dDdx), move3(r.dDdy);
     move3(r.first_org);
-    move(r.tnear), move(r.tfar), move(r.time), move(r.t_passed), move(r.window);
+    move(r.tnear), move(r.tfar), move(r.time), move(r.sees), move(r.t_passed), move(r.window);
     move(r.passed_first), move(r.passed_last);
     move(r.pixel_x), move(r.pixel_y), move(r.sample), move(r.share), move(r.medium), move(r.slot);
     move(r.weight), move(r.turns), move(r.spent), move(r.layer);
@@ -401,16 +402,16 @@ void occluded(const Accel& accel, const RayBatch& rays, std::span<const uint32_t
               uint32_t mask, uint8_t* blocked, TraceCounters& counters) {
     if (which.size() == rays.count) return occluded(accel, rays, mask, blocked, counters);
     RayPacket16 packet;
-    const KeptColumn columns[] = {{rays.org[0], packet.org_x}, {rays.org[1], packet.org_y},
-                                  {rays.org[2], packet.org_z}, {rays.dir[0], packet.dir_x},
-                                  {rays.dir[1], packet.dir_y}, {rays.dir[2], packet.dir_z},
-                                  {rays.tnear, packet.tnear},  {rays.tfar, packet.tfar}};
-    std::fill_n(packet.mask, kPacket, mask);
+    const KeptColumn columns[] = {
+        {rays.org[0], packet.org_x}, {rays.org[1], packet.org_y}, {rays.org[2], packet.org_z},
+        {rays.dir[0], packet.dir_x}, {rays.dir[1], packet.dir_y}, {rays.dir[2], packet.dir_z},
+        {rays.tnear, packet.tnear},  {rays.tfar, packet.tfar},    {rays.sees, packet.mask}};
     for (size_t first = 0; first < which.size(); first += kPacket) {
         const size_t end = std::min(which.size() - first, size_t(kPacket));
         uint32_t rows[kPacket];
         for (size_t i = 0; i < kPacket; ++i) rows[i] = which[first + std::min(i, end - 1)];
         point_kernels().pick(rows, columns, std::size(columns));
+        for (uint32_t& sees : packet.mask) sees &= mask;
         packet.active = end == kPacket ? 0xffffu : (1u << end) - 1;
         const uint32_t lanes = accel.occluded16(packet, counters);
         for (size_t i = 0; i < end; ++i) blocked[first + i] = lanes >> i & 1;

@@ -76,6 +76,8 @@ struct RayBatch {
     float* tnear = nullptr;
     float* tfar = nullptr;
     float* time = nullptr;
+    uint32_t* sees = nullptr;  // ray masks: what it may meet of what the batch is traced for; at
+                               // first all
     bool spreads = true;  // the next four count; else hits have no footprints
     float* dOdx[3] = {};
     float* dOdy[3] = {};
@@ -121,8 +123,9 @@ class HitStore {
     ZeroedVector<std::byte> memory_;
 };
 
-// Traces all rays with `mask` in packets of 16 and gathers the hits, densely and in the order of
-// the rays. `depth` goes into the batch. Allocates only if the store is smaller than the rays.
+// Traces all rays with `mask`, as far as each sees that, in packets of 16 and gathers the hits,
+// densely and in the order of the rays. `depth` goes into the batch. Allocates only if the store is
+// smaller than the rays.
 const HitBatch& trace(const Accel& accel, const RayBatch& rays, uint32_t mask, uint32_t depth,
                       HitStore& store, TraceCounters& counters);
 
@@ -142,9 +145,9 @@ void move_ray(RayBatch& rays, size_t to, size_t from);
 // and all rays of the batch be such.
 void pass_through(const Accel& accel, RayBatch& rays, size_t to, const HitBatch& hits, size_t k);
 
-// For each ray: blocked[i] = 1 if geometry of the mask lies in (tnear, tfar], else 0. With
-// kMaskOpaque the first step of transmission; the caller goes on with trace(kMaskNotOpaque) for the
-// rest. Uses org, dir, tnear, tfar, time of the batch only.
+// For each ray: blocked[i] = 1 if geometry of the mask that it sees lies in (tnear, tfar], else 0.
+// With kMaskOpaque the first step of transmission; the caller goes on with trace(kMaskNotOpaque)
+// for the rest. Uses org, dir, tnear, tfar, time, sees of the batch only.
 void occluded(const Accel& accel, const RayBatch& rays, uint32_t mask, uint8_t* blocked,
               TraceCounters& counters);
 // The same for the rays of these numbers, which ascend: blocked[i] is of ray which[i].

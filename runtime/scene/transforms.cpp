@@ -102,4 +102,14 @@ void find_moving_parts(Scene& scene) {
     scene.moving = std::move(parts);
 }
 
+mat3 normal_matrix(const dmat4& m, bool mirrored) {
+    dmat3 l(m);
+    dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
+    double largest = 0;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(cofactor[c][r]));
+    if (largest > 0 && std::isfinite(largest)) cofactor /= largest;
+    return mat3(mirrored ? -cofactor : cofactor);
+}
+
 }  // namespace kinora

@@ -18,6 +18,10 @@ dmat4 transform_matrix(TransformKind kind, const double* v);
 // The product of a node's operations in order.
 dmat4 node_matrix(const NodeDefinition& node, std::span<const double> values);
 
+// Cofactor of the linear part: takes normals along (docs/numerics.md#geometry), the mirror's sign
+// taken out; its largest entry 1, since squares of lengths are floats.
+mat3 normal_matrix(const dmat4& m, bool mirrored);
+
 // Brings Pose::nodes up to date: those whose definition's bit is set, and what hangs below them.
 // A matrix that is not finite becomes all zero.
 void update_transforms(const Scene& scene, Pose& pose);

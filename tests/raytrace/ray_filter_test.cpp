@@ -2,8 +2,10 @@
 // (docs/numerics.md#rays), and the floating-point mode is given back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfenv>
 
+#include "raytrace/hits.h"
 #include "raytrace/wavefront.h"
 #include "tests/raytrace/meshes.h"
 
@@ -145,6 +147,41 @@ TEST_F(RayFilter, OccludedByOpaqueLooksAtOpaqueGeometryOnly) {
     TraceCounters counters;
     occluded(accel, rays, kMaskOpaque, blocked.data(), counters);
     for (size_t k = 0; k < 20; ++k) EXPECT_EQ(blocked[k], k < 10 && k % 2 == 0) << k;
+}
+
+// RayBatch::sees goes with the ray, also where it is moved within its batch.
+TEST_F(RayFilter, RaysMeetNoMoreThanTheySee) {
+    TestMesh near = sphere(1, {0, 0, 3});
+    std::vector<Geometry> rows{ball.geometry(1), near.geometry(2)};
+    rows[1].opaque = false;
+    accel.update(rows);
+    constexpr uint32_t kSees[] = {kMaskAll, kMaskOpaque, kMaskNotOpaque, 0};
+    RayBatch rays(40);
+    for (size_t k = 0; k < 40; ++k) {
+        set_ray(rays, k, {0.1f, 0.1f, 10}, {0, 0, -1}, 20);
+        rays.sees[k] = kSees[k % 4];
+        rays.slot[k] = uint32_t(k);
+        ++rays.count;
+    }
+    TraceCounters counters;
+    HitStore store;
+    std::vector<uint32_t> met(40, 0), want = {2, 1, 2, 0};  // by slot
+    auto look = [&] {
+        const HitBatch& hits = trace(accel, rays, kMaskAll, 1, store, counters);
+        for (size_t h = 0; h < hits.count; ++h) met[rays.slot[hits.ray[h]]] = hits.geometry[h];
+    };
+    look();
+    for (size_t k = 0; k < 40; ++k) EXPECT_EQ(met[k], want[k % 4]) << k;
+    std::vector<uint8_t> blocked(40);
+    std::vector<uint32_t> odd;
+    for (uint32_t k = 1; k < 40; k += 2) odd.push_back(k);
+    occluded(accel, rays, odd, kMaskOpaque, blocked.data(), counters);
+    for (size_t i = 0; i < odd.size(); ++i) EXPECT_EQ(blocked[i], odd[i] % 4 == 1) << odd[i];
+    rays.count = 0;
+    for (uint32_t k : odd) move_ray(rays, rays.count++, k);
+    std::ranges::fill(met, 0u);
+    look();
+    for (uint32_t k : odd) EXPECT_EQ(met[k], want[k % 4]) << k;
 }
 
 }  // namespace

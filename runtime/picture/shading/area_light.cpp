@@ -120,7 +120,7 @@ LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_
     hits.primitive = primitive.data();
     hits.u = u;
     hits.v = v;
-    hits.t = hits.time = zeros;
+    hits.t = zeros;
     for (size_t k = 0; k < 3; ++k) {
         on_surface.P[k] = take();
         on_surface.P_error[k] = take();
@@ -131,11 +131,12 @@ LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_
         hits.org[k] = hits.dir[k] = zeros;
         hits.dPdx[k] = hits.dPdy[k] = hits.dDdx[k] = hits.dDdy[k] = zeros;
     }
-    auto pick = [&](const uint32_t* from) {
-        std::span<uint32_t> to = arena.allocate_span<uint32_t>(rows);
+    auto pick = [&]<class T>(const T* from) {
+        std::span<T> to = arena.allocate_span<T>(rows);
         for (size_t i = 0; i < rows; ++i) to[i] = from[grid.points[first + std::min(i, count - 1)]];
         return to.data();
     };
+    hits.time = pick(grid.hits.time);
     hits.pixel_x = pick(grid.hits.pixel_x);
     hits.pixel_y = pick(grid.hits.pixel_y);
     hits.sample = pick(grid.hits.sample);

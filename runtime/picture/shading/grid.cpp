@@ -17,6 +17,7 @@
 #include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/corner.h"
 #include "runtime/scene/spaces.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 
@@ -30,16 +31,6 @@ void want_columns(Grid& grid, std::span<const uint16_t> wanted) {
 void want_triple(Grid& grid, uint16_t first) {
     uint16_t wanted[] = {first, uint16_t(first + 1), uint16_t(first + 2)};
     want_columns(grid, wanted);
-}
-
-mat3 normal_matrix(const dmat4& m, bool mirrored) {
-    dmat3 l(m);
-    dmat3 cofactor(glm::cross(l[1], l[2]), glm::cross(l[2], l[0]), glm::cross(l[0], l[1]));
-    double largest = 0;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(cofactor[c][r]));
-    if (largest > 0 && std::isfinite(largest)) cofactor /= largest;
-    return mat3(mirrored ? -cofactor : cofactor);
 }
 
 namespace {

@@ -8,6 +8,8 @@
 
 #include "jit/ir/kernel_call.h"
 #include "raytrace/wavefront.h"
+#include "runtime/picture/shading/rays/budget.h"
+#include "runtime/picture/shading/rays/kinds.h"
 #include "runtime/picture/shading/shading_frame.h"
 #include "runtime/scene/shaders/picture_points.h"
 #include "runtime/scene/shaders/shader_instance.h"
@@ -15,21 +17,12 @@
 namespace kinora {
 
 class LightShadows;
-class RayCollector;
+class RayNotes;
 
 inline constexpr size_t kRecordSets = 256;  // handles a grid may hold at once
 inline constexpr size_t kGatherSets = kRecordSets - rsl::kGatherLevels;  // the last ones
 
 using jit::padded;
-
-// The rays that a point has shot, and how the ray that sees it goes on.
-struct PointRays {
-    uint32_t shot = 0;     // those of points that the ray has passed included
-    uint32_t refused = 0;  // asked for, and too deep or of too small a share
-    bool ended = false;    // its budget is spent: the loops that shoot rays end
-    bool reflects = false;
-    float onward = 1;  // raytrace::Passage::onward
-};
 
 // Its columns are in the thread's arena. Lives on the stack of whatever shades it; services see it
 // through GridHost.
@@ -58,8 +51,8 @@ struct Grid : PicturePoints {
     // Of each point, or none where no kernel shoots rays; a light's are those of the points it
     // lights.
     std::span<PointRays> rays;
-    bool goes_on = false;               // the rays that see the points may go on behind them
-    RayCollector* collector = nullptr;  // of rays that wait for those of other points
+    bool goes_on = false;       // the rays that see the points may go on behind them
+    RayNotes* notes = nullptr;  // of calls whose rays wait for those of other points
 
     // Something is drawn at random for its points (FirstHits). A light's are those of the surface
     // it lights.
@@ -75,9 +68,5 @@ void want_triple(Grid& grid, uint16_t first);
 
 // Fills every non-null column from the hits.
 void gather(Grid& grid);
-
-// Cofactor of the linear part: takes normals along (docs/numerics.md#geometry), the mirror's sign
-// taken out; its largest entry 1, since squares of lengths are floats.
-mat3 normal_matrix(const dmat4& m, bool mirrored);
 
 }  // namespace kinora

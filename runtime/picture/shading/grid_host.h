@@ -21,16 +21,14 @@ struct GridServices {
     Bakes& bakes;
 };
 
-// A kernel over the points of a grid.
-class GridHost : public SceneHost {
+// What a kernel over the points of a grid is answered whenever it runs.
+class PictureHost : public SceneHost {
   public:
-    GridHost(Grid& grid, const GridServices& services);
+    PictureHost(Grid& grid, const GridServices& services);
     Grid& grid() const { return grid_; }
     const GridServices& services() const { return services_; }
 
     dmat4 current_from_space(std::string_view name, size_t point) const override;
-    void print(const jit::ServiceCall& call) override;
-    void lights(const jit::ServiceCall& call) override;
     void trace(const jit::ServiceCall& call) override;
     void transmission(const jit::ServiceCall& call) override;
     void occlusion(const jit::ServiceCall& call) override;
@@ -38,11 +36,29 @@ class GridHost : public SceneHost {
     void gather(const jit::ServiceCall& call) override;
     void raylimit(const jit::ServiceCall& call) override;
     void query(const jit::ServiceCall& call) override;
-    void bake3d(const jit::ServiceCall& call) override;
 
-  private:
+  protected:
     Grid& grid_;
     const GridServices& services_;
+};
+
+// A kernel that shades its points.
+class GridHost final : public PictureHost {
+  public:
+    using PictureHost::PictureHost;
+    void print(const jit::ServiceCall& call) override;
+    void lights(const jit::ServiceCall& call) override;
+    void bake3d(const jit::ServiceCall& call) override;
+};
+
+// A kernel that runs for the rays it sends, and will run again (docs/rays.md#full-packets): it
+// prints and bakes nothing, and is in the dark.
+class NotingHost final : public PictureHost {
+  public:
+    using PictureHost::PictureHost;
+    void print(const jit::ServiceCall&) override {}
+    void lights(const jit::ServiceCall& call) override;
+    void bake3d(const jit::ServiceCall&) override {}
 };
 
 }  // namespace kinora

@@ -10,7 +10,7 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/insight.h"
-#include "runtime/picture/shading/nested_rays.h"
+#include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/shading_frame.h"
 #include "runtime/scene/scene.h"
 
@@ -76,16 +76,16 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
     size_t grids = 0, points = 0;
     ShadowQueue shadows(frame_, transmission_, memory, ray);
     Arena::Mark part = arena.mark();
-    NestedRays nested(frame_, *this);
-    RayCollector rays(nested, hits.depth + 1, memory);
+    RayQueue queue(frame_, *this, transmission_);
+    RayNotes notes(queue, hits.depth + 1, memory);
     auto shade_lit = [&] {
         shadows.finish();
-        collect(lit.first(grids), rays);
+        note_rays(lit.first(grids), notes);
         for (Grid* grid : lit.first(grids)) {
-            rays.answer(*grid);
+            notes.answer(*grid);
             shade_grid(call, *grid);
         }
-        rays.reset();
+        notes.reset();
         arena.release(part);
         grids = points = 0;
     };
@@ -159,34 +159,19 @@ void HitShader::count_dark(const Grid& grid, const raytrace::ShadeResult& result
     if (count > 0) counters.dark += drop_lit(grid, dark.first(count));
 }
 
-namespace {
-
-// Whether the grid's kernel calls services that send rays from this depth, which can be collected.
-bool collects(const Grid& grid) {
-    static const jit::ServiceFn trace = find_service("trace"),
-                                diffuse = find_service("indirectdiffuse");
-    const bool bounces = grid.ray.diffuse < grid.frame.quality.diffuse_depth;
-    return grid.depth < grid.frame.quality.ray_depth &&
-           std::ranges::any_of(grid.look->full.services, [&](jit::ServiceFn fn) {
-               return fn == trace || (bounces && fn == diffuse);
-           });
-}
-
-}  // namespace
-
 // The rays of all grids together, where there is more than one lane group of them.
-void HitShader::collect(std::span<Grid* const> grids, RayCollector& rays) {
+void HitShader::note_rays(std::span<Grid* const> grids, RayNotes& notes) {
     size_t points = 0;
     for (const Grid* grid : grids)
-        if (collects(*grid)) points += grid->count();
+        if (sends_noted_rays(*grid)) points += grid->count();
     if (points <= jit::kMaxLanes || frame_.stopped()) return;
-    rays.start();
+    notes.start();
     for (Grid* grid : grids) {
-        if (!collects(*grid)) continue;
-        grid->collector = &rays;
+        if (!sends_noted_rays(*grid)) continue;
+        grid->notes = &notes;
         kernels_.run_noting(*grid);
     }
-    rays.finish();
+    notes.finish();
 }
 
 // A grid in the arena with all that its kernel reads; its shadows are cast at the queue's end.

@@ -39,7 +39,7 @@ class HitShader {
     struct Call;
     Grid& light_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points,
                      LightShadows& shadows);
-    void collect(std::span<Grid* const> grids, RayCollector& rays);
+    void note_rays(std::span<Grid* const> grids, RayNotes& notes);
     void shade_grid(const Call& call, Grid& grid);
     void count_dark(const Grid& grid, const raytrace::ShadeResult& result) const;
 

@@ -67,14 +67,30 @@ void KernelRunner::report_faults(Diagnostics& diagnostics) const {
     });
 }
 
+namespace {
+
+// Of the rows of ray_kinds(); null for rays that no shader sends.
+std::vector<jit::ServiceFn> find_ray_services() {
+    std::vector<jit::ServiceFn> fns;
+    for (const RayKindRow& row : ray_kinds())
+        fns.push_back(row.service.empty() ? nullptr : find_service(row.service));
+    return fns;
+}
+
+}  // namespace
+
+bool calls_service(const BoundKernel& kernel, RayKind kind) {
+    static const std::vector<jit::ServiceFn> fns = find_ray_services();
+    return std::ranges::find(kernel.services, fns[size_t(kind)]) != kernel.services.end();
+}
+
 bool shoots_rays(const ShaderInstance& look) {
-    static const jit::ServiceFn fns[] = {find_service("trace"),     find_service("transmission"),
-                                         find_service("occlusion"), find_service("indirectdiffuse"),
-                                         find_service("gather"),    find_service("raylimit")};
+    static const jit::ServiceFn limit = find_service("raylimit");
     auto shoots = [](const BoundKernel& kernel) {
-        return std::ranges::any_of(kernel.services, [](jit::ServiceFn fn) {
-            return std::ranges::find(fns, fn) != std::end(fns);
-        });
+        return std::ranges::count(kernel.services, limit) > 0 ||
+               std::ranges::any_of(ray_kinds(), [&](const RayKindRow& row) {
+                   return calls_service(kernel, row.kind);
+               });
     };
     return shoots(look.full) || (look.opacity && shoots(*look.opacity));
 }
@@ -103,10 +119,19 @@ void KernelRunner::start_accounts(Grid& grid) const {
     }
 }
 
+namespace {
+
+size_t ended_points(const Grid& grid) {
+    return size_t(std::ranges::count_if(grid.rays, &PointRays::ended));
+}
+
+}  // namespace
+
 void KernelRunner::run_noting(Grid& grid) const {
     Arena& arena = grid.memory.arena;
     const BoundKernel& bound = grid.look->full;
-    GridHost host(grid, services_);
+    const size_t ended = ended_points(grid);
+    NotingHost host(grid, services_);
     // Its faults may come of what it does not know yet.
     bound.run({.count = grid.count(),
                .frame = block_of(frame_, *grid.look, bound),
@@ -117,6 +142,7 @@ void KernelRunner::run_noting(Grid& grid) const {
                .host = host,
                .stop = frame_.stop},
               arena);
+    grid.memory.counters.out_of_rays -= ended_points(grid) - ended;
     start_accounts(grid);
 }
 

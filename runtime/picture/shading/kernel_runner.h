@@ -41,6 +41,8 @@ class KernelRunner {
     std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]
 };
 
+// Whether the kernel calls the service that sends such rays.
+bool calls_service(const BoundKernel& kernel, RayKind kind);
 // Whether a kernel of the look calls services that count rays (PointRays).
 bool shoots_rays(const ShaderInstance& look);
 

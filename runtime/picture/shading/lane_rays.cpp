@@ -1,7 +1,10 @@
-// runtime/picture/shading/lane_rays.cpp: the rays of a call's lanes: made sixteen at a time; calls
-// noted, traced together and answered.
+// runtime/picture/shading/lane_rays.cpp: rays that leave hits, one by one; those of a call's lanes,
+// made sixteen at a time.
+#include "runtime/picture/shading/lane_rays.h"
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -9,18 +12,146 @@
 
 #include "raytrace/hits.h"
 #include "runtime/picture/columns/kernels.h"
-#include "runtime/picture/shading/nested_rays.h"
+#include "runtime/picture/shading/rays/smooth_surface.h"
 #include "runtime/picture/shading/volumes.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
+
+void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
+                    const raytrace::HitBatch& from, uint32_t hit) {
+    set_ray(rays, i, org, dir, tfar);
+    set_triple(rays.first_org, i, org);
+    rays.time[i] = from.time[hit];
+    rays.sees[i] = ~0u;
+    for (size_t k = 0; rays.spreads && k < 3; ++k) {
+        rays.dOdx[k][i] = from.dPdx[k][hit];
+        rays.dOdy[k][i] = from.dPdy[k][hit];
+        rays.dDdx[k][i] = rays.dDdy[k][i] = 0;
+    }
+    rays.t_passed[i] = 0;
+    rays.pixel_x[i] = from.pixel_x[hit];
+    rays.pixel_y[i] = from.pixel_y[hit];
+    rays.sample[i] = from.sample[hit];
+    rays.layer[i] = 0;
+    rays.share[i] = from.rays ? from.rays->share[from.ray[hit]] : 1.0f;
+    rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
+    rays.weight[i] = from.rays ? from.rays->weight[from.ray[hit]] : 1.0f;
+    rays.turns[i] = rays.spent[i] = 0;
+}
+
+RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
+    RayStart start;
+    const mat3& camera_from_accel = grid.frame.camera_from_accel;
+    vec3 eye = grid.frame.eye;
+    auto is_at = [&](const raytrace::HitBatch& hits, uint32_t hit) {
+        vec3 on_surface = triple(hits.P, hit);
+        start.hits = &hits;
+        start.hit = hit;
+        if (camera_from_accel * (on_surface - eye) != P) return false;
+        start.P = on_surface;
+        start.error = triple(hits.P_error, hit);
+        start.Ng = triple(hits.Ng, hit);
+        return true;
+    };
+    size_t last = std::min(point, grid.count() - 1);
+    // A light on geometry has hits of its own: samples of its mesh.
+    if (grid.lit && &grid.lit->hits != &grid.hits &&
+        is_at(grid.lit->hits, grid.lit->points[grid.lit_first + last]))
+        return start;
+    if (is_at(grid.hits, grid.points[last])) return start;
+    start.P = glm::transpose(camera_from_accel) * P + eye;
+    // gamma(4) of the magnitudes bounds a rotation and a sum.
+    start.error = (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(eye)) * 2.4e-7f;
+    start.Ng = vec3(0.0f);
+    return start;
+}
+
+void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
+             float tfar, float bias, uint32_t path, uint32_t slot, float share) {
+    vec3 org;
+    if (start.Ng != vec3(0.0f)) {
+        org = raytrace::offset_ray_origin(start.P, start.error, start.Ng, dir);
+    } else {
+        float clear = 2 * std::max(start.error.x, std::max(start.error.y, start.error.z));
+        org = start.P + dir * (clear / glm::length(dir));
+    }
+    size_t i = rays.count++;
+    set_nested_ray(rays, i, org, dir, tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar,
+                   *start.hits, start.hit);
+    if (bias > 0) rays.tnear[i] = bias;
+    if (!grid.scene.volumes.empty())
+        rays.medium[i] = nested_medium(grid.scene, *start.hits, start.hit, dir);
+    rays.sample[i] = path;
+    rays.share[i] = share;
+    rays.slot[i] = slot;
+}
+
+// Igehy, Tracing ray differentials, 1999: a ray that goes on spreads as itself, turned; one that
+// goes back spreads as its mirror image and by the turn of the mirror's normal.
+// runtime/picture/rays has the formulas, for sixteen rays.
+void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitBatch& from,
+                uint32_t hit) {
+    if (!rays.spreads) return;
+    size_t i = rays.count - 1;
+    vec3 in = triple(from.dir, hit), out = triple(rays.dir, i), Ng = triple(from.Ng, hit);
+    float before = glm::length(in), after = glm::length(out);
+    if (!(before > 0 && after > 0)) return;
+    in /= before;
+    out /= after;
+    bool back = glm::dot(in, Ng) * glm::dot(out, Ng) < 0;
+    vec3 axis = back ? out - in : out + in;
+    float square = glm::dot(axis, axis);
+    auto turned = [&](vec3 d) {
+        vec3 mirrored = square > 1e-12f ? d - axis * (2 * glm::dot(axis, d) / square) : d;
+        // Mirrored at in + out and then along out, `in` comes to lie on `out`.
+        vec3 result = back ? mirrored : mirrored + out * (2 * glm::dot(in, d));
+        return result * (after / before);
+    };
+    vec3 dx = turned(triple(from.dDdx, hit)), dy = turned(triple(from.dDdy, hit));
+    vec3 dNdx, dNdy;
+    if (back && square > 1e-12f && on_surface(grid) &&
+        SmoothSurface(grid.scene, grid.pose).bend_at(from, hit, dNdx, dNdy)) {
+        const vec3 N = axis / std::sqrt(square);
+        auto bent = [&](vec3 dN) {
+            return (dN * glm::dot(in, N) + N * glm::dot(in, dN)) * (2 * after);
+        };
+        dx -= bent(dNdx);
+        dy -= bent(dNdy);
+    }
+    set_triple(rays.dDdx, i, dx);
+    set_triple(rays.dDdy, i, dy);
+}
+
+// Points that have a number of their own (steps of a march) have a series of their own, too.
+raytrace::SampleSeries series_of(const Grid& grid, const Lanes& lanes, int lane,
+                                 const raytrace::HitBatch& hits, uint32_t hit) {
+    const bool is_hit = hits.depth == 0 && lanes.own(lane) == random_of(hits, hit, grid.frame.seed);
+    return raytrace::series_of(
+        is_hit ? series_of(hits, hit, grid.frame.seed) : raytrace::SampleSeries{lanes.own(lane)},
+        lanes.site(lane));
+}
+
+// ---- sixteen at a time
+// ---------------------------------------------------------------------------
 
 static_assert(kSixteen == jit::kMaxLanes);
 
 namespace {
 
 // Rows of RayLanes::carried.
-enum Carried { kdOdx, kdOdy = 3, kPixelX = 6, kPixelY, kShare, kWeight, kMedium, kTnear, kTfar };
+enum Carried {
+    kdOdx,
+    kdOdy = 3,
+    kPixelX = 6,
+    kPixelY,
+    kShare,
+    kWeight,
+    kMedium,
+    kTime,
+    kTnear,
+    kTfar
+};
 static_assert(kTfar + 1 == kCarried);
 
 constexpr size_t kRowBytes = kSixteen * sizeof(float);
@@ -100,6 +231,7 @@ void LaneRays::enter_hits() {
     if (wants_.spreads) enter_bends();
     enter([](const Hits& h) { return h.pixel_x; }, lane_.carried[kPixelX]);
     enter([](const Hits& h) { return h.pixel_y; }, lane_.carried[kPixelY]);
+    enter([](const Hits& h) { return h.time; }, lane_.carried[kTime]);
     for (int lane = 0; lane < kSixteen; ++lane) {
         const raytrace::RayBatch* rays = hits_[lane]->rays;
         const uint32_t ray = hits_[lane]->ray[hit_[lane]];
@@ -239,7 +371,9 @@ void LaneRays::put(raytrace::RayBatch& rays, const RaySamples& samples, size_t c
     copy_row(made.carried[kMedium], rays.medium + at);
     copy_row(made.carried[kTnear], rays.tnear + at);
     copy_row(made.carried[kTfar], rays.tfar + at);
-    for (float* column : {rays.time, rays.t_passed}) std::fill_n(column + at, kSixteen, 0.0f);
+    copy_row(made.carried[kTime], rays.time + at);
+    std::fill_n(rays.t_passed + at, kSixteen, 0.0f);
+    std::fill_n(rays.sees + at, kSixteen, ~0u);
     for (uint32_t* column : {rays.layer, rays.turns, rays.spent})
         std::fill_n(column + at, kSixteen, 0u);
     for (uint32_t i = 0; i < uint32_t(kSixteen); ++i) rays.slot[at + i] = slot + i;
@@ -250,218 +384,6 @@ void LaneRays::put(raytrace::RayBatch& rays, const RaySamples& samples, size_t c
                 nested_medium(grid_.scene, *hits_[lane], hit_[lane], triple(rays.dir, at + i));
         }
     rays.count += count;
-}
-
-// ---- calls that are noted
-// -------------------------------------------------------------------------
-
-struct RayCollector::Call {
-    const Grid* grid;
-    int32_t first;
-    uint32_t mask;
-    int rows;
-    const float* args;  // [row][lane]
-    RayPlan plan;
-    std::span<SeenByRay> seen;
-    Call* next;
-};
-
-namespace {
-
-// Whether the lanes of the mask ask the same, bit for bit.
-bool same_arguments(const float* a, const float* b, int rows, uint32_t mask) {
-    if (std::memcmp(a, b, size_t(rows) * kRowBytes) == 0) return true;
-    uint32_t differs[jit::kMaxLanes] = {};
-    for (int row = 0; row < rows; ++row, a += jit::kMaxLanes, b += jit::kMaxLanes)
-        for (int lane = 0; lane < jit::kMaxLanes; ++lane)
-            differs[lane] |= uint32_t(jit::bits_of(a[lane]) ^ jit::bits_of(b[lane]));
-    for (; mask; mask &= mask - 1)
-        if (differs[std::countr_zero(mask)]) return false;
-    return true;
-}
-
-bool same_rays(const RayPlan& a, const RayPlan& b) {
-    if (std::memcmp(&a, &b, sizeof(a)) == 0) return true;  // as in most calls
-    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
-        if (a.count[lane] != b.count[lane]) return false;
-        if (a.count[lane] == 0) continue;
-        if (a.share[lane] != b.share[lane] || a.way[lane].weight != b.way[lane].weight)
-            return false;
-    }
-    return true;
-}
-
-}  // namespace
-
-void RayCollector::start() {
-    collecting_ = true;
-    batch_->rays.reserve(kGridPoints);
-    batch_->rays.count = 0;
-    targets_ = memory_.arena.allocate_span<SeenByRay*>(kGridPoints);
-}
-
-void RayCollector::finish() {
-    flush();
-    collecting_ = false;
-}
-
-void RayCollector::answer(const Grid& grid) {
-    for (next_ = first_; next_ && next_->grid != &grid;) next_ = next_->next;
-}
-
-void RayCollector::reset() {
-    first_ = last_ = next_ = nullptr;
-}
-
-std::span<SeenByRay> RayCollector::note(const Grid& grid, const Lanes& lanes, int rows,
-                                        const RayPlan& plan) {
-    Arena& arena = memory_.arena;
-    size_t floats = size_t(rows) * jit::kMaxLanes, rays = 0;
-    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
-        if (lanes.asks(lane)) rays += size_t(plan.count[lane]);
-    Call* call = arena.allocate_span<Call>(1).data();
-    float* args = arena.allocate_span<float>(floats).data();
-    std::copy_n(lanes.call().args, floats, args);
-    *call = {&grid,
-             lanes.call().first,
-             lanes.mask(),
-             rows,
-             args,
-             plan,
-             arena.allocate_span<SeenByRay>(rays),
-             nullptr};
-    (last_ ? last_->next : first_) = call;
-    last_ = call;
-    return call->seen;
-}
-
-raytrace::RayBatch& RayCollector::batch(const RayTag& tag) {
-    raytrace::RayBatch& rays = batch_->rays;
-    bool alike = tag.kind == tag_.kind && tag.label == tag_.label &&
-                 tag.specular == tag_.specular && tag.diffuse == tag_.diffuse;
-    if (!alike || rays.count == kGridPoints) flush();
-    tag_ = tag;
-    return rays;
-}
-
-std::optional<std::span<const SeenByRay>> RayCollector::find(const Grid& grid, const Lanes& lanes,
-                                                             int rows, const RayPlan& plan) {
-    const jit::ServiceCall& asked = lanes.call();
-    while (next_ && next_->grid == &grid && next_->first < asked.first) next_ = next_->next;
-    for (Call* c = next_; c && c->grid == &grid && c->first == asked.first; c = c->next) {
-        bool same = c->mask == lanes.mask() && c->rows == rows && same_rays(c->plan, plan) &&
-                    same_arguments(c->args, asked.args, rows, c->mask);
-        if (!same) continue;
-        next_ = c->next;
-        return c->seen;
-    }
-    return {};
-}
-
-void RayCollector::flush() {
-    raytrace::RayBatch& rays = batch_->rays;
-    size_t count = rays.count;
-    if (count == 0) return;
-    Arena::Mark mark = memory_.arena.mark();
-    std::span<SeenByRay> seen = memory_.arena.allocate_span<SeenByRay>(count);
-    nested_.see(rays, depth_, tag_, memory_, seen);
-    for (size_t r = 0; r < count; ++r) *targets_[r] = seen[r];
-    rays.count = 0;
-    memory_.arena.release(mark);
-}
-
-void RayCollector::expect(size_t first, SeenByRay* seen) {
-    raytrace::RayBatch& rays = batch_->rays;
-    for (size_t r = first; r < rays.count; ++r) {
-        targets_[r] = seen + (rays.slot[r] - first);
-        rays.slot[r] = uint32_t(r);
-    }
-}
-
-namespace {
-
-// The samples of a plan in their order.
-class PlannedSamples {
-  public:
-    PlannedSamples(const Lanes& lanes, const RayPlan& plan) : lanes_(lanes), plan_(plan) {}
-    // Up to `room` of those left; none at the end.
-    size_t take(uint8_t* lane, uint32_t* number, size_t room) {
-        size_t count = 0;
-        while (lane_ < jit::kMaxLanes) {
-            const uint32_t all = lanes_.asks(lane_) ? uint32_t(plan_.count[lane_]) : 0u;
-            for (; next_ < all && count < room; ++next_, ++count) {
-                lane[count] = uint8_t(lane_);
-                number[count] = next_;
-            }
-            if (next_ < all) break;
-            next_ = 0;
-            ++lane_;
-        }
-        return count;
-    }
-
-  private:
-    const Lanes& lanes_;
-    const RayPlan& plan_;
-    int lane_ = 0;
-    uint32_t next_ = 0;
-};
-
-void note_samples(RayCollector& collector, PlannedSamples& planned, SeenByRay* seen,
-                  const RayTag& tag, const AddSamples& add) {
-    uint8_t lane_of[kSixteen];
-    uint32_t number_of[kSixteen];
-    for (;;) {
-        raytrace::RayBatch& rays = collector.batch(tag);
-        const size_t n =
-            planned.take(lane_of, number_of, std::min<size_t>(kSixteen, collector.room()));
-        if (n == 0) return;
-        const size_t before = rays.count;
-        std::fill_n(seen, n, SeenByRay{});
-        add(rays, {{lane_of, n}, {number_of, n}}, uint32_t(before));
-        collector.expect(before, seen);
-        seen += n;
-    }
-}
-
-}  // namespace
-
-void see_samples(Grid& grid, const Lanes& lanes, int rows, const RayPlan& plan, const RayTag& tag,
-                 NestedRays& nested, const AddSamples& add, const SumSamples& sum) {
-    RayCollector* collector = grid.collector;
-    PlannedSamples planned(lanes, plan);
-    if (collector && collector->collecting())
-        return note_samples(*collector, planned, collector->note(grid, lanes, rows, plan).data(),
-                            tag, add);
-    Arena& arena = grid.memory.arena;
-    Arena::Mark mark = arena.mark();
-    std::span<uint8_t> lane_of = arena.allocate_span<uint8_t>(kGridPoints);
-    std::span<uint32_t> number_of = arena.allocate_span<uint32_t>(kGridPoints);
-    auto take = [&] {
-        const size_t n = planned.take(lane_of.data(), number_of.data(), kGridPoints);
-        return SampleSpan{lane_of.first(n), number_of.first(n)};
-    };
-    auto found = collector ? collector->find(grid, lanes, rows, plan) : std::nullopt;
-    if (found) {
-        size_t first = 0;
-        for (SampleSpan samples = take(); samples.size() > 0; samples = take()) {
-            sum(samples, found->subspan(first, samples.size()));
-            first += samples.size();
-        }
-    } else {
-        std::span<SeenByRay> seen = arena.allocate_span<SeenByRay>(kGridPoints);
-        NestedWavefront batch(grid.memory);
-        raytrace::RayBatch& rays = batch->rays;
-        rays.reserve(kGridPoints);
-        for (SampleSpan samples = take(); samples.size() > 0; samples = take()) {
-            rays.count = 0;
-            std::fill_n(seen.begin(), samples.size(), SeenByRay{});
-            add(rays, samples, 0);
-            nested.see(rays, grid.depth + 1, tag, grid.memory, seen);
-            sum(samples, seen.first(samples.size()));
-        }
-    }
-    arena.release(mark);
 }
 
 }  // namespace kinora

@@ -441,36 +441,45 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         columns.data(), record_uniforms(frame_.pose, arena, statement, binding)};
 }
 
-int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
-    // A part of the grid: one lane group at its own points. Records of a group that is done are
-    // let go, or a marching loop would keep them all.
+namespace {
+
+// A part of the grid asks: one lane group at its own points. Records of a group that is done are
+// let go, or a marching loop would keep them all. The handle of the call's records.
+uint32_t next_handle(Grid& grid, int32_t first) {
     Arena& arena = grid.memory.arena;
-    if (grid.record_group != call.first) {
+    if (grid.record_group != first) {
         if (grid.record_group >= 0) arena.release(grid.record_mark);
         grid.record_mark = arena.mark();
-        grid.record_group = call.first;
+        grid.record_group = first;
         grid.record_calls = 0;
     }
-    uint32_t handle = grid.next_record_set;
+    const uint32_t handle = grid.next_record_set;
     grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
-    if (++grid.record_calls > kMostLightQuestions) {
-        grid.memory.counters.unlit += 1;
-        grid.record_sets[handle] = {};
-        return int32_t(handle);
-    }
-    LightPoints at;
-    at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
-    at.first = size_t(call.first);
-    mat3 accel_from_camera = glm::transpose(frame_.camera_from_accel);
+    return handle;
+}
+
+// Rows of lanes.
+template <class T>
+T* lane_row(Arena& arena) {
+    return arena.allocate_span<T>(jit::kMaxLanes).data();
+}
+
+// The points of a call, on no surface.
+LightPoints points_of(const Grid& grid, const jit::ServiceCall& call) {
+    Arena& arena = grid.memory.arena;
+    const ShadingFrame& frame = grid.frame;
+    const mat3 accel_from_camera = glm::transpose(frame.camera_from_accel);
     float* rows[13];
-    for (float*& row : rows) row = arena.allocate_span<float>(jit::kMaxLanes).data();
+    for (float*& row : rows) row = lane_row<float>(arena);
+    raytrace::SampleSeries* series = lane_row<raytrace::SampleSeries>(arena);
+    uint32_t* surface = lane_row<uint32_t>(arena);
     for (size_t i = 0; i < jit::kMaxLanes; ++i) {
         vec3 P(call.args[i], call.args[jit::kMaxLanes + i], call.args[2 * jit::kMaxLanes + i]);
         if (!(call.mask >> i & 1)) P = vec3(0);
-        vec3 accel = accel_from_camera * P + frame_.eye;
+        vec3 accel = accel_from_camera * P + frame.eye;
         // The point went through a rotation and a sum: gamma(4) of the magnitudes bounds that.
         vec3 error =
-            (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(frame_.eye)) * 2.4e-7f;
+            (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(frame.eye)) * 2.4e-7f;
         for (int k = 0; k < 3; ++k) {
             rows[k][i] = P[k];
             rows[3 + k][i] = accel[k];
@@ -479,25 +488,37 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
         }
         // Each step of a march has numbers of its own.
         uint32_t h = grid.points[std::min(size_t(call.first) + i, grid.count() - 1)];
-        rows[12][i] =
-            jit::float_of(int32_t(raytrace::hash(random_of(grid.hits, h, frame_.seed),
-                                                 raytrace::hash(bits(P.x), bits(P.y), bits(P.z)))));
+        const uint32_t own = raytrace::hash(random_of(grid.hits, h, frame.seed),
+                                            raytrace::hash(bits(P.x), bits(P.y), bits(P.z)));
+        rows[12][i] = jit::float_of(int32_t(own));
+        series[i] = {own};
+        surface[i] = kNone;
     }
+    LightPoints at;
+    at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
+    at.first = size_t(call.first);
     at.rng = rows[12];
-    std::span<raytrace::SampleSeries> series =
-        arena.allocate_span<raytrace::SampleSeries>(jit::kMaxLanes);
-    for (size_t i = 0; i < jit::kMaxLanes; ++i) series[i] = {bits(rows[12][i])};
-    at.series = series.data();
-    std::span<uint32_t> surface = arena.allocate_span<uint32_t>(jit::kMaxLanes);
-    std::fill(surface.begin(), surface.end(), kNone);
-    at.surface = surface.data();
+    at.series = series;
+    at.surface = surface;
     for (size_t k = 0; k < 3; ++k) {
         at.P[k] = rows[k];
         at.accel[k] = rows[3 + k];
         at.error[k] = rows[6 + k];
         at.N[k] = at.Ng[k] = rows[9 + k];
     }
-    grid.record_sets[handle] = make_records(grid, at);
+    return at;
+}
+
+}  // namespace
+
+int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
+    const uint32_t handle = next_handle(grid, call.first);
+    if (++grid.record_calls > kMostLightQuestions) {
+        grid.memory.counters.unlit += 1;
+        grid.record_sets[handle] = {};
+    } else {
+        grid.record_sets[handle] = make_records(grid, points_of(grid, call));
+    }
     return int32_t(handle);
 }
 

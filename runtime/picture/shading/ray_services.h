@@ -5,27 +5,20 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <span>
 #include <vector>
 
 #include "runtime/picture/shading/grid.h"
+#include "runtime/picture/shading/rays/gather_records.h"
 #include "runtime/scene/images/environment_table.h"
 
 namespace kinora {
 
 class HitShader;
-class TextureStore;
-class NestedRays;
-class Transmission;
-
-// Light of an environment map along directions in world space, filtered over `width` radians.
-void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
-                  vec3* light);
+class RayQueue;
 
 class RayServices {
   public:
-    RayServices(const ShadingFrame& frame, NestedRays& nested, Transmission& transmission)
-        : frame_(frame), nested_(nested), transmission_(transmission) {}
+    RayServices(const ShadingFrame& frame, RayQueue& queue) : frame_(frame), queue_(queue) {}
 
     void trace(Grid& grid, const jit::ServiceCall& call);
     void transmission(Grid& grid, const jit::ServiceCall& call);
@@ -33,23 +26,14 @@ class RayServices {
     void indirect_diffuse(Grid& grid, const jit::ServiceCall& call);
 
   private:
-    class Passing;
-
     const ShadingFrame& frame_;
-    NestedRays& nested_;
-    Transmission& transmission_;
-};
-
-// The records of one gather statement at one depth; kept from frame to frame.
-struct GatherMemory {
-    std::vector<float> values;
-    std::vector<const float*> columns;
-    std::vector<jit::Record> records;
+    RayQueue& queue_;
 };
 
 class GatherRays {
   public:
-    GatherRays(const ShadingFrame& frame, HitShader& hits) : frame_(frame), hits_(hits) {}
+    GatherRays(const ShadingFrame& frame, HitShader& hits, RayQueue& queue)
+        : frame_(frame), hits_(hits), queue_(queue) {}
 
     void begin_frame(size_t threads);
     // All rays of a statement; the handle of its records.
@@ -63,6 +47,7 @@ class GatherRays {
 
     const ShadingFrame& frame_;
     HitShader& hits_;
+    RayQueue& queue_;
     // [thread][depth and nesting]
     std::vector<std::vector<std::unique_ptr<GatherMemory>>> memories_;
     std::mutex tables_mutex_;

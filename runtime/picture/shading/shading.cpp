@@ -11,8 +11,8 @@
 #include "runtime/picture/shading/grid_host.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/imager.h"
-#include "runtime/picture/shading/nested_rays.h"
 #include "runtime/picture/shading/print.h"
+#include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/transmission.h"
 #include "runtime/scene/scene.h"
@@ -45,9 +45,9 @@ struct Shading::Objects {
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
     HitShader hits{frame, kernels, lights, transmission, volumes};
-    NestedRays nested{frame, hits};
-    RayServices rays{frame, nested, transmission};
-    GatherRays gathers{frame, hits};
+    RayQueue queue{frame, hits, transmission};
+    RayServices rays{frame, queue};
+    GatherRays gathers{frame, hits, queue};
     Imager imager{frame, threads, kernels};
     Prints prints;
     Bakes bakes{frame.scene, frame.pose};

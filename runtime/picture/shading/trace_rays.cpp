@@ -1,6 +1,6 @@
 // runtime/picture/shading/trace_rays.cpp: the services trace, transmission, occlusion and
-// indirectdiffuse: the samples of a lane group go in dense batches, each lane sums its own in their
-// order, so that no result depends on its neighbours.
+// indirectdiffuse: what their arguments mean, and how what their rays find is summed. The queue
+// does the rest.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -8,10 +8,11 @@
 
 #include "raytrace/hits.h"
 #include "raytrace/sampling.h"
-#include "runtime/picture/shading/nested_rays.h"
+#include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
-#include "runtime/picture/shading/transmission.h"
-#include "runtime/scene/images/texture.h"
+#include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/picture/shading/rays/smooth_surface.h"
+#include "runtime/picture/shading/volumes.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -19,32 +20,6 @@ namespace kinora {
 namespace {
 
 constexpr int kLanes = jit::kMaxLanes;
-
-// Fills batches with the samples of all lanes: add(samples) adds the rays of one batch, whose slots
-// count up from 0, and flush(lane of each) consumes them.
-template <class Add, class Flush>
-void in_batches(const Lanes& lanes, const int (&count)[kLanes], raytrace::RayBatch& rays, Add&& add,
-                Flush&& flush) {
-    uint8_t lane_of[kGridPoints];
-    uint32_t number_of[kGridPoints];
-    size_t filled = 0;
-    rays.reserve(kGridPoints);
-    rays.count = 0;
-    auto empty = [&] {
-        if (filled == 0) return;
-        add(SampleSpan{{lane_of, filled}, {number_of, filled}});
-        flush(std::span<const uint8_t>(lane_of, filled));
-        rays.count = 0;
-        filled = 0;
-    };
-    for (int lane = 0; lane < kLanes; ++lane)
-        for (int k = 0; lanes.asks(lane) && k < count[lane]; ++k) {
-            lane_of[filled] = uint8_t(lane);
-            number_of[filled] = uint32_t(k);
-            if (++filled == kGridPoints) empty();
-        }
-    empty();
-}
 
 bool has_direction(vec3 d) {
     float length = glm::length(d);
@@ -66,26 +41,40 @@ void for_each_map(const Lanes& lanes, int argument, std::span<const uint8_t> lan
     }
 }
 
-// What occlusion and indirectdiffuse are asked: samples in a cone about N, denser along it.
-enum ConeArgs { kP = 2, kN = 5, kSamples = 8, kAngle, kMaxdist, kBias, kMoreArgs };
+}  // namespace
 
-class ConeRays {
+// ---- trace --------------------------------------------------------------------------------------
+
+namespace {
+
+// Rays along R, or in a cone about it.
+class TraceRays {
   public:
-    ConeRays(const Grid& grid, const Lanes& lanes) : grid_(grid), lanes_(lanes) {}
+    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label, Weight, Through, Rows };
+
+    TraceRays(const Grid& grid, const Lanes& lanes) : grid_(grid), lanes_(lanes) {}
 
     int count(int lane) const {
-        bool asks = grid_.shadows && has_direction(lanes_.triple(kN, lane));
-        return asks ? lanes_.samples(kSamples, lane) : 0;
+        return lanes_.number(Spread, lane) > 0 ? lanes_.samples(Samples, lane) : 1;
     }
-    // Made when they are first asked for; `count` and `share` of each lane.
-    LaneRays& rays(const int (&count)[kLanes], const float (&share)[kLanes]) {
+    RayWish wish(int lane) const {
+        return {.samples = count(lane),
+                .aims = has_direction(lanes_.triple(R, lane)),
+                .weight = lanes_.number(Weight, lane),
+                .through = lanes_.number(Through, lane)};
+    }
+    // Made when they are first asked for.
+    LaneRays& rays(const RayPlan& plan) {
         if (rays_) return *rays_;
-        rays_.emplace(grid_, lanes_, kP, kN, true);
+        rays_.emplace(grid_, lanes_, P, R, false);
         for (int lane = 0; lane < kLanes; ++lane) {
-            if (!lanes_.asks(lane)) continue;
-            rays_->set_cone(lane, lanes_.number(kAngle, lane), count[lane]);
-            rays_->set_reach(lane, lanes_.number(kMaxdist, lane), lanes_.number(kBias, lane),
-                             share[lane]);
+            if (plan.count[lane] == 0) continue;
+            rays_->set_straight(lane, glm::normalize(rays_->way(lane)));
+            if (lanes_.number(Spread, lane) > 0)
+                rays_->set_cone(lane, lanes_.number(Spread, lane), count(lane));
+            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane),
+                             plan.share[lane]);
+            rays_->set_weight(lane, plan.way[lane].weight);
         }
         return *rays_;
     }
@@ -96,90 +85,18 @@ class ConeRays {
     std::optional<LaneRays> rays_;
 };
 
-// Of the nearest surface along each ray, kMiss without one.
-void find_distances(const raytrace::Accel& accel, const raytrace::RayBatch& rays,
-                    ThreadMemory& memory, std::span<float> out) {
-    std::fill(out.begin(), out.end(), kMiss);
-    NestedWavefront nested(memory);
-    nested->hits.reserve(kGridPoints);
-    const raytrace::HitBatch& hits =
-        raytrace::trace(accel, rays, raytrace::kMaskAll, 1, nested->hits, memory.counters.trace);
-    for (size_t h = 0; h < hits.count; ++h) out[rays.slot[hits.ray[h]]] = hits.t[h];
-}
-
 }  // namespace
 
-void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
-                  vec3* light) {
-    alignas(64) float args[13 * kLanes] = {}, results[4 * kLanes];
-    for (size_t begin = 0; begin < directions.size(); begin += kLanes) {
-        size_t count = std::min(directions.size() - begin, size_t(kLanes));
-        for (size_t i = 0; i < count; ++i) {
-            vec3 d = directions[begin + i];
-            // Any two directions across d span the footprint.
-            vec3 side = std::abs(d.x) > 0.5f ? vec3(-d.y, d.x, 0) : vec3(0, -d.z, d.y);
-            side *= width / glm::length(side);
-            vec3 up = glm::cross(d, side);
-            args[i] = jit::float_of(map);
-            for (int k = 0; k < 3; ++k) {
-                args[(2 + k) * kLanes + int(i)] = d[k];
-                args[(5 + k) * kLanes + int(i)] = side[k];
-                args[(8 + k) * kLanes + int(i)] = up[k];
-            }
-        }
-        lookup_environment({nullptr, args, results, (1u << count) - 1, 0, kLanes}, store);
-        for (size_t i = 0; i < count; ++i)
-            for (int k = 0; k < 3; ++k) light[begin + i][k] = results[k * kLanes + int(i)];
-    }
-}
-
 void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
-    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label, Weight, Through, Rows };
     Lanes lanes(call);
+    TraceRays along(grid, lanes);
     vec3 color[kLanes] = {};
     float distance[kLanes];
     std::fill_n(distance, kLanes, kMiss);
-    auto count = [&](int lane) {
-        return lanes.number(Spread, lane) > 0 ? lanes.samples(Samples, lane) : 1;
-    };
-    RayPlan plan;
-    // How many of them are shot.
-    auto shoot = [&](int lane) {
-        if (!has_direction(lanes.triple(R, lane))) return 0;
-        size_t point = lanes.point(lane);
-        int n = count(lane);
-        plan.share[lane] = ray_share(grid, point, n);
-        if (plan.share[lane] == 0) {
-            refuse_rays(grid, point, n);
-            return 0;
-        }
-        plan.way[lane] =
-            choose_way(grid, point, lanes.number(Weight, lane), lanes.number(Through, lane));
-        return plan.way[lane].factor > 0 && spend_rays(grid, point, n) ? n : 0;
-    };
-    bool deep = grid.depth >= frame_.quality.ray_depth;
-    bool shoots = grid.shadows && !deep && !frame_.stopped();
-    for (int lane = 0; lane < kLanes; ++lane) {
-        if (!lanes.asks(lane)) continue;
-        if (deep) refuse_rays(grid, lanes.point(lane), count(lane));
-        if (shoots) plan.count[lane] = shoot(lane);
-    }
-    std::optional<LaneRays> made;
-    auto make = [&] {
-        made.emplace(grid, lanes, P, R, false);
-        for (int lane = 0; lane < kLanes; ++lane) {
-            if (plan.count[lane] == 0) continue;
-            made->set_straight(lane, glm::normalize(made->way(lane)));
-            if (lanes.number(Spread, lane) > 0)
-                made->set_cone(lane, lanes.number(Spread, lane), count(lane));
-            made->set_reach(lane, lanes.number(Maxdist, lane), lanes.number(Bias, lane),
-                            plan.share[lane]);
-            made->set_weight(lane, plan.way[lane].weight);
-        }
-    };
+    const RayPlan plan =
+        queue_.plan(RayKind::Trace, grid, lanes, [&](int lane) { return along.wish(lane); });
     auto add = [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
-        if (!made) make();
-        made->add(rays, samples, slot);
+        along.rays(plan).add(rays, samples, slot);
     };
     auto sum = [&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
         for (size_t i = 0; i < seen.size(); ++i) {
@@ -188,13 +105,10 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
             distance[lane] = std::min(distance[lane], seen[i].distance);
         }
     };
-    if (plan.any())
-        lanes.for_each_text(Label, [&](const Lanes& alike) {
-            RayTag tag = deeper(grid, RayKind::Specular, lanes.integer(Label, alike.first()));
-            see_samples(grid, alike, Rows, plan, tag, nested_, add, sum);
-        });
+    queue_.send({RayKind::Trace, grid, lanes, plan, TraceRays::Rows, TraceRays::Label}, add,
+                SumSamples(sum));
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? count(lane) : 1;
+        int n = lanes.asks(lane) ? along.count(lane) : 1;
         if (n > 1) color[lane] /= float(n);
         float factor = plan.way[lane].factor;
         lanes.set(0, lane, factor == 1 ? color[lane] : color[lane] * factor);
@@ -202,53 +116,41 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
     }
 }
 
-// The samples of one call of transmission. Where an end is a hit of a smooth surface, rays leave
-// from that surface, unless something stands between it and the facet.
-class RayServices::Passing {
-  public:
-    Passing(const ShadingFrame& frame, Grid& grid, const Lanes& lanes, Transmission& transmission)
-        : frame_(frame),
-          grid_(grid),
-          lanes_(lanes),
-          transmission_(transmission),
-          smooth_(frame.scene, frame.pose),
-          ways_(grid.memory.arena.allocate_span<Way>(kGridPoints)),
-          through_(grid.memory.arena.allocate_span<vec3>(kGridPoints)) {}
+// ---- transmission -------------------------------------------------------------------------------
 
-    void add(raytrace::RayBatch& rays, int lane, uint32_t k, uint32_t slot) {
-        Way& way = ways_[slot];
-        way = {ray_start(grid_, lanes_.point(lane), lanes_.triple(kFrom, lane)),
-               ray_start(grid_, lanes_.point(lane), lanes_.triple(kTo, lane)), lane, k};
-        vec3 straight = way.to.P - way.from.P;
-        way.up_from = way_up(way.from, straight);
-        way.up_to = way_up(way.to, -straight);
-        add_ray_of(rays, way, slot);
+namespace {
+
+// Rays from one point to another. Where an end is a hit of a smooth surface, they leave from that
+// surface, unless something stands between it and the facet.
+class RaysBetween {
+  public:
+    enum { From = 2, To = 5, Samples = 8, Spread, Bias };
+
+    RaysBetween(Grid& grid, const Lanes& lanes)
+        : grid_(grid), lanes_(lanes), smooth_(grid.scene, grid.pose) {}
+
+    // Nothing can lie between two points that are the same.
+    RayWish wish(int lane) const {
+        return {.samples = lanes_.number(Spread, lane) > 0 ? lanes_.samples(Samples, lane) : 1,
+                .aims = has_direction(lanes_.triple(To, lane) - lanes_.triple(From, lane))};
     }
-    // What passes each of the rays added; consumes them.
-    std::span<const vec3> pass(raytrace::RayBatch& rays) {
-        std::span<vec3> through = through_.first(rays.count);
-        transmission_.pass(rays, grid_.ray, grid_.memory, through);
-        NestedWavefront nested(grid_.memory);
-        raytrace::RayBatch& again = nested->rays;
-        again.reserve(kGridPoints);
-        again.count = 0;
-        uint32_t slots[kGridPoints];
-        for (uint32_t slot = 0; slot < through.size(); ++slot) {
-            Way& way = ways_[slot];
-            bool lifted = way.up_from != vec3(0.0f) || way.up_to != vec3(0.0f);
-            if (!lifted || through[slot] == vec3(0.0f)) continue;
-            if (is_free(way.from, way.up_from) && is_free(way.to, way.up_to)) continue;
-            way.up_from = way.up_to = vec3(0.0f);
-            slots[again.count] = slot;
-            add_ray_of(again, way, uint32_t(again.count));
+    void add(raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
+        if (ways_.empty()) ways_ = grid_.memory.arena.allocate_span<Way>(kGridPoints);
+        for (uint32_t i = 0; i < samples.size(); ++i) {
+            const int lane = samples.lane[i];
+            Way& way = ways_[i];
+            way = {ray_start(grid_, lanes_.point(lane), lanes_.triple(From, lane)),
+                   ray_start(grid_, lanes_.point(lane), lanes_.triple(To, lane)), lane,
+                   samples.number[i]};
+            vec3 straight = way.to.P - way.from.P;
+            way.up_from = way_up(way.from, straight);
+            way.up_to = way_up(way.to, -straight);
+            add_ray_of(rays, way, slot + i);
         }
-        if (again.count > 0) {
-            std::span<vec3> found = grid_.memory.arena.allocate_span<vec3>(again.count);
-            transmission_.pass(again, grid_.ray, grid_.memory, found);
-            for (size_t i = 0; i < found.size(); ++i) through[slots[i]] = found[i];
-        }
-        return through;
     }
+    // Sends the rays added last that leave smooth surfaces in vain once more, from the facets:
+    // what passes these, at their samples.
+    void send_again(RayQueue& queue, std::span<const SeenByRay> seen, std::span<vec3> through);
 
   private:
     struct Way {
@@ -265,244 +167,315 @@ class RayServices::Passing {
         return smooth_.way_from(lit, end.hit, dir);
     }
     bool is_free(const RayStart& end, vec3 up) const {
-        return up == vec3(0.0f) || is_way_free(frame_.pose.accel, end.P, end.error, end.Ng, up,
+        return up == vec3(0.0f) || is_way_free(grid_.pose.accel, end.P, end.error, end.Ng, up,
                                                grid_.memory.counters.trace);
     }
-    void add_ray_of(raytrace::RayBatch& rays, const Way& w, uint32_t slot) {
-        int lane = w.lane;
-        const RayStart& start = w.from;
-        // The end keeps clear of the surface it may lie on, as the beginning does.
-        vec3 way = (w.to.P + w.up_to) - (start.P + w.up_from);
-        if (float spread = lanes_.number(kSpread, lane); spread > 0) {
-            grid_.note_random();
-            const raytrace::SampleSeries series =
-                series_of(grid_, lanes_, lane, *start.hits, start.hit);
-            const uint32_t number =
-                series.part * uint32_t(lanes_.samples(kSamples, lane)) + w.sample;
-            way = Cone(way, spread, false).direction(number, series.seed) * glm::length(way);
-        }
-        vec3 target = start.P + w.up_from + way;
-        if (w.to.Ng != vec3(0.0f)) {
-            vec3 off = w.up_to == vec3(0.0f) ? -way : w.up_to;
-            vec3 error = w.to.error + vec3(end_error(start.P, w.to.P));
-            target = raytrace::offset_ray_origin(target, error, w.to.Ng, off);
-        } else {
-            float clear = 2 * std::max(w.to.error.x, std::max(w.to.error.y, w.to.error.z));
-            target -= way * (clear / glm::length(way));
-        }
-        vec3 org = start.P + w.up_from;
-        vec3 off = w.up_from == vec3(0.0f) ? way : w.up_from;
-        if (start.Ng != vec3(0.0f)) {
-            org = raytrace::offset_ray_origin(org, start.error, start.Ng, off);
-        } else {
-            float clear = 2 * std::max(start.error.x, std::max(start.error.y, start.error.z));
-            org += way * (clear / glm::length(way));
-        }
-        vec3 dir = target - org;
-        if (!has_direction(dir) || glm::dot(dir, way) <= 0) dir = way * 1e-6f;
-        add_ray(rays, grid_, start, dir, 1.0f, lanes_.number(kBias, lane) / glm::length(dir),
-                raytrace::hash(lanes_.seed(lane), w.sample), slot);
-        // It leaves from there, on the side where the surface is.
-        size_t i = rays.count - 1;
-        set_triple(rays.org, i, org);
-        set_triple(rays.first_org, i, org);
-        if (!frame_.scene.volumes.empty())
-            rays.medium[i] = nested_medium(frame_.scene, *start.hits, start.hit, off);
+    // Whether what the ray passes is not what passes between the facets.
+    bool is_in_vain(const Way& way) const {
+        const bool lifted = way.up_from != vec3(0.0f) || way.up_to != vec3(0.0f);
+        return lifted && !(is_free(way.from, way.up_from) && is_free(way.to, way.up_to));
     }
+    void add_ray_of(raytrace::RayBatch& rays, const Way& way, uint32_t slot);
+    vec3 direction(const Way& way) const;
 
-    const ShadingFrame& frame_;
     Grid& grid_;
     const Lanes& lanes_;
-    Transmission& transmission_;
     SmoothSurface smooth_;
     std::span<Way> ways_;
-    std::span<vec3> through_;
-
-  public:
-    enum { kFrom = 2, kTo = 5, kSamples = 8, kSpread, kBias };
 };
+
+void RaysBetween::send_again(RayQueue& queue, std::span<const SeenByRay> seen,
+                             std::span<vec3> through) {
+    NestedWavefront nested(grid_.memory);
+    raytrace::RayBatch& again = nested->rays;
+    again.reserve(kGridPoints);
+    again.count = 0;
+    uint32_t sample_of[kGridPoints];
+    for (uint32_t i = 0; i < seen.size(); ++i) {
+        Way& way = ways_[i];
+        if (seen[i].open == vec3(0.0f) || !is_in_vain(way)) continue;
+        way.up_from = way.up_to = vec3(0.0f);
+        sample_of[again.count] = i;
+        add_ray_of(again, way, uint32_t(again.count));
+    }
+    if (again.count == 0) return;
+    set_kind(again, 0, RayKind::Transmission);
+    std::span<SeenByRay> found = grid_.memory.arena.allocate_span<SeenByRay>(again.count);
+    queue.pass(again, sent_tag(grid_.ray, row_of(RayKind::Transmission), 0), grid_.memory, false,
+               found);
+    for (size_t i = 0; i < found.size(); ++i) through[sample_of[i]] = found[i].open;
+}
+
+// From end to end; within the cone where there is one.
+vec3 RaysBetween::direction(const Way& w) const {
+    const vec3 way = (w.to.P + w.up_to) - (w.from.P + w.up_from);
+    const float spread = lanes_.number(Spread, w.lane);
+    if (!(spread > 0)) return way;
+    grid_.note_random();
+    const raytrace::SampleSeries series =
+        series_of(grid_, lanes_, w.lane, *w.from.hits, w.from.hit);
+    const uint32_t number = series.part * uint32_t(lanes_.samples(Samples, w.lane)) + w.sample;
+    return Cone(way, spread, false).direction(number, series.seed) * glm::length(way);
+}
+
+// A point off its surface, or off the box of its error, towards `way`.
+vec3 off_surface(vec3 at, vec3 error, const RayStart& end, vec3 up, vec3 way) {
+    if (end.Ng != vec3(0.0f))
+        return raytrace::offset_ray_origin(at, error, end.Ng, up == vec3(0.0f) ? way : up);
+    float clear = 2 * std::max(end.error.x, std::max(end.error.y, end.error.z));
+    return at + way * (clear / glm::length(way));
+}
+
+// The end keeps clear of the surface it may lie on, as the beginning does.
+void RaysBetween::add_ray_of(raytrace::RayBatch& rays, const Way& w, uint32_t slot) {
+    const RayStart& start = w.from;
+    const vec3 way = direction(w);
+    const vec3 target =
+        off_surface(start.P + w.up_from + way, w.to.error + vec3(end_error(start.P, w.to.P)), w.to,
+                    w.up_to, -way);
+    const vec3 org = off_surface(start.P + w.up_from, start.error, start, w.up_from, way);
+    vec3 dir = target - org;
+    if (!has_direction(dir) || glm::dot(dir, way) <= 0) dir = way * 1e-6f;
+    add_ray(rays, grid_, start, dir, 1.0f, lanes_.number(Bias, w.lane) / glm::length(dir),
+            raytrace::hash(lanes_.seed(w.lane), w.sample), slot);
+    // It leaves from there, on the side where the surface is.
+    size_t i = rays.count - 1;
+    set_triple(rays.org, i, org);
+    set_triple(rays.first_org, i, org);
+    if (!grid_.scene.volumes.empty())
+        rays.medium[i] = nested_medium(grid_.scene, *start.hits, start.hit,
+                                       w.up_from == vec3(0.0f) ? way : w.up_from);
+}
+
+}  // namespace
 
 void RayServices::transmission(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
-    vec3 sum[kLanes];
-    int count[kLanes] = {};
+    RaysBetween between(grid, lanes);
+    vec3 through[kLanes] = {};
+    const RayPlan plan = queue_.plan(RayKind::Transmission, grid, lanes,
+                                     [&](int lane) { return between.wish(lane); });
+    auto add = [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
+        between.add(rays, samples, slot);
+    };
+    auto sum = [&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
+        vec3 open[kGridPoints];
+        for (size_t i = 0; i < seen.size(); ++i) open[i] = seen[i].open;
+        between.send_again(queue_, seen, open);
+        for (size_t i = 0; i < seen.size(); ++i) through[samples.lane[i]] += open[i];
+    };
+    queue_.send({RayKind::Transmission, grid, lanes, plan}, add, SumSamples(sum));
     for (int lane = 0; lane < kLanes; ++lane) {
-        sum[lane] = vec3(0.0f);
-        // Nothing can lie between two points that are the same.
-        bool open =
-            !lanes.asks(lane) || !grid.shadows || frame_.stopped() ||
-            !has_direction(lanes.triple(Passing::kTo, lane) - lanes.triple(Passing::kFrom, lane));
-        if (open) continue;
-        int n =
-            lanes.number(Passing::kSpread, lane) > 0 ? lanes.samples(Passing::kSamples, lane) : 1;
-        count[lane] = spend_samples(grid, lanes.point(lane), n);
+        const int n = plan.count[lane];
+        lanes.set(0, lane, n ? through[lane] / float(n) : vec3(1.0f));
     }
-    if (is_noting(grid)) {
-        for (int lane = 0; lane < kLanes; ++lane) lanes.set(0, lane, vec3(1.0f));
-        return;
-    }
-    ThreadMemory& memory = grid.memory;
-    Arena::Mark mark = memory.arena.mark();
-    Passing passing(frame_, grid, lanes, transmission_);
-    NestedWavefront nested(memory);
-    in_batches(
-        lanes, count, nested->rays,
-        [&](const SampleSpan& samples) {
-            for (uint32_t i = 0; i < samples.size(); ++i)
-                passing.add(nested->rays, samples.lane[i], samples.number[i], i);
-        },
-        [&](std::span<const uint8_t> lane_of) {
-            std::span<const vec3> through = passing.pass(nested->rays);
-            for (size_t i = 0; i < lane_of.size(); ++i) sum[lane_of[i]] += through[i];
-        });
-    memory.arena.release(mark);
-    for (int lane = 0; lane < kLanes; ++lane)
-        lanes.set(0, lane, count[lane] ? sum[lane] / float(count[lane]) : vec3(1.0f));
 }
+
+// ---- occlusion and indirectdiffuse --------------------------------------------------------------
+
+namespace {
+
+// Rays in a cone about N, denser along it.
+class ConeRays {
+  public:
+    enum { P = 2, N = 5, Samples = 8, Angle, Maxdist, Bias, More };
+
+    ConeRays(const Grid& grid, const Lanes& lanes) : grid_(grid), lanes_(lanes) {}
+
+    int count(int lane) const { return lanes_.samples(Samples, lane); }
+    bool aims(int lane) const { return grid_.shadows && has_direction(lanes_.triple(N, lane)); }
+    // Made when they are first asked for.
+    LaneRays& rays(const RayPlan& plan) {
+        if (rays_) return *rays_;
+        rays_.emplace(grid_, lanes_, P, N, true);
+        for (int lane = 0; lane < kLanes; ++lane) {
+            if (!lanes_.asks(lane)) continue;
+            rays_->set_cone(lane, lanes_.number(Angle, lane), plan.count[lane]);
+            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane),
+                             plan.share[lane]);
+        }
+        return *rays_;
+    }
+
+  private:
+    const Grid& grid_;
+    const Lanes& lanes_;
+    std::optional<LaneRays> rays_;
+};
+
+// What occlusion finds, lane by lane.
+class OcclusionSum {
+  public:
+    enum { Falloff = ConeRays::More, Mode, Map };
+
+    OcclusionSum(TextureStore& textures, const Lanes& lanes, const RayPlan& plan)
+        : textures_(textures), lanes_(lanes), plan_(plan) {}
+
+    bool by_distance(int lane) const { return lanes_.number(Falloff, lane) > 0; }
+    // `direction`: of each sample.
+    void add(const SampleSpan& samples, std::span<const SeenByRay> seen,
+             std::span<const vec3> direction, Arena& arena);
+    void put(const mat3& camera_from_accel) const {
+        for (int lane = 0; lane < kLanes; ++lane) {
+            const int n = plan_.count[lane];
+            lanes_.set(0, lane, n ? blocked_[lane] / float(n) : 0.0f);
+            float length = glm::length(open_[lane]);
+            vec3 mean = length > 0 ? camera_from_accel * open_[lane] / length : vec3(0.0f);
+            lanes_.set(1, lane, n ? mean : lanes_.triple(ConeRays::N, lane));
+            lanes_.set(4, lane, n ? sky_[lane] / float(n) : vec3(0.0f));
+        }
+    }
+
+  private:
+    // What is left of a ray's occlusion by something at that distance. "falloffmode" 0:
+    // exponential, 1: a power of the share of maxdist left.
+    float fade(int lane, float distance) const {
+        const float falloff = lanes_.number(Falloff, lane);
+        if (!(lanes_.number(Mode, lane) > 0)) return std::exp(-falloff * distance);
+        const float left = 1 - distance / lanes_.number(ConeRays::Maxdist, lane);
+        return std::pow(std::max(0.0f, left), falloff);
+    }
+
+    TextureStore& textures_;
+    const Lanes& lanes_;
+    const RayPlan& plan_;
+    float blocked_[kLanes] = {};
+    vec3 open_[kLanes] = {}, sky_[kLanes] = {};
+};
+
+void OcclusionSum::add(const SampleSpan& samples, std::span<const SeenByRay> seen,
+                       std::span<const vec3> direction, Arena& arena) {
+    Arena::Mark mark = arena.mark();
+    std::span<vec3> through = arena.allocate_span<vec3>(seen.size());
+    for (size_t i = 0; i < seen.size(); ++i) {
+        const int lane = samples.lane[i];
+        through[i] = seen[i].open;
+        float hidden = 1 - (through[i].x + through[i].y + through[i].z) / 3;
+        if (by_distance(lane) && hidden > 0) {
+            const float left = fade(lane, seen[i].distance);
+            hidden *= left;
+            if (hidden > 0) through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * left;
+        }
+        blocked_[lane] += hidden;
+        open_[lane] += (1 - hidden) * direction[i];
+    }
+    std::span<vec3> light = arena.allocate_span<vec3>(seen.size());
+    for_each_map(lanes_, Map, samples.lane, [&](size_t begin, size_t end, int32_t map) {
+        const int lane = samples.lane[begin];
+        light_of_map(textures_, map, direction.subspan(begin, end - begin),
+                     sample_width(plan_.count[lane]), light.data());
+        for (size_t i = begin; i < end; ++i) sky_[lane] += through[i] * light[i - begin];
+    });
+    arena.release(mark);
+}
+
+}  // namespace
 
 void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
-    enum { Falloff = kMoreArgs, Mode, Map };
     Lanes lanes(call);
-    ThreadMemory& memory = grid.memory;
-    float blocked[kLanes] = {};
-    vec3 open[kLanes] = {}, sky[kLanes] = {};
-    Arena::Mark mark = memory.arena.mark();
-    std::span<vec3> through = memory.arena.allocate_span<vec3>(kGridPoints);
-    std::span<vec3> dirs = memory.arena.allocate_span<vec3>(kGridPoints);
-    std::span<vec3> light = memory.arena.allocate_span<vec3>(kGridPoints);
-    NestedWavefront nested(memory);
+    Arena& arena = grid.memory.arena;
     ConeRays cone(grid, lanes);
-    int count[kLanes] = {};
-    float share[kLanes];
-    std::fill_n(share, kLanes, 1.0f);
-    for (int lane = 0; lane < kLanes; ++lane) {
-        int wanted = lanes.asks(lane) && !frame_.stopped() ? cone.count(lane) : 0;
-        if (wanted > 0) count[lane] = spend_samples(grid, lanes.point(lane), wanted);
-        if (is_noting(grid)) count[lane] = 0;
-    }
-    in_batches(
-        lanes, count, nested->rays,
-        [&](const SampleSpan& samples) {
-            cone.rays(count, share).add(nested->rays, samples, 0);
-            for (size_t i = 0; i < samples.size(); ++i) dirs[i] = triple(nested->rays.dir, i);
+    const RayPlan plan = queue_.plan(RayKind::Occlusion, grid, lanes, [&](int lane) {
+        return RayWish{.samples = cone.count(lane), .aims = cone.aims(lane)};
+    });
+    OcclusionSum sum(*frame_.scene.textures, lanes, plan);
+    RayCall rays_of{RayKind::Occlusion, grid, lanes, plan};
+    for (int lane = 0; lane < kLanes; ++lane)
+        rays_of.distances |= plan.count[lane] > 0 && sum.by_distance(lane);
+    Arena::Mark mark = arena.mark();
+    std::span<vec3> directions = arena.allocate_span<vec3>(plan.any() ? kGridPoints : 0);
+    queue_.send(
+        rays_of,
+        [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
+            cone.rays(plan).add(rays, samples, slot);
+            for (size_t i = 0; i < samples.size(); ++i) directions[i] = triple(rays.dir, i);
         },
-        [&](std::span<const uint8_t> lane_of) {
-            bool by_distance = false;
-            for (uint8_t lane : lane_of) by_distance |= lanes.number(Falloff, lane) > 0;
-            std::span<float> weight =
-                memory.arena.allocate_span<float>(by_distance ? kGridPoints : 0);
-            if (by_distance) find_distances(frame_.pose.accel, nested->rays, memory, weight);
-            transmission_.pass(nested->rays, grid.ray, memory, through.first(lane_of.size()));
-            for (size_t i = 0; i < lane_of.size(); ++i) {
-                int lane = lane_of[i];
-                float hidden = 1 - (through[i].x + through[i].y + through[i].z) / 3;
-                float falloff = lanes.number(Falloff, lane);
-                // "falloffmode" 0: exponential, 1: a power of the share of maxdist left.
-                float fade = 1;
-                if (falloff > 0 && hidden > 0)
-                    fade =
-                        lanes.number(Mode, lane) > 0
-                            ? std::pow(std::max(0.0f, 1 - weight[i] / lanes.number(kMaxdist, lane)),
-                                       falloff)
-                            : std::exp(-falloff * weight[i]);
-                hidden *= fade;
-                blocked[lane] += hidden;
-                open[lane] += (1 - hidden) * dirs[i];
-                if (falloff > 0 && hidden > 0)
-                    through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * fade;
-            }
-            for_each_map(lanes, Map, lane_of, [&](size_t begin, size_t end, int32_t map) {
-                light_of_map(*frame_.scene.textures, map, dirs.subspan(begin, end - begin),
-                             sample_width(count[lane_of[begin]]), light.data());
-                for (size_t i = begin; i < end; ++i)
-                    sky[lane_of[i]] += through[i] * light[i - begin];
-            });
-        });
-    memory.arena.release(mark);
-    for (int lane = 0; lane < kLanes; ++lane) {
-        int n = count[lane];
-        lanes.set(0, lane, n ? blocked[lane] / float(n) : 0.0f);
-        float length = glm::length(open[lane]);
-        vec3 mean = length > 0 ? frame_.camera_from_accel * open[lane] / length : vec3(0.0f);
-        lanes.set(1, lane, n ? mean : lanes.triple(kN, lane));
-        lanes.set(4, lane, n ? sky[lane] / float(n) : vec3(0.0f));
-    }
+        SumSamples([&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
+            sum.add(samples, seen, directions, arena);
+        }));
+    arena.release(mark);
+    sum.put(frame_.camera_from_accel);
 }
 
+namespace {
+
+// What indirectdiffuse finds, lane by lane: the color, what of it is sky, how much is blocked.
+class IndirectSum {
+  public:
+    enum { Map = ConeRays::More, Rows };
+
+    IndirectSum(TextureStore& textures, const Lanes& lanes, const RayPlan& plan)
+        : textures_(textures), lanes_(lanes), plan_(plan) {}
+
+    void add(const SampleSpan& samples, std::span<const SeenByRay> seen, ConeRays& cone,
+             Arena& arena);
+    void put() const {
+        for (int lane = 0; lane < kLanes; ++lane) {
+            int n = plan_.count[lane];
+            lanes_.set(0, lane, n ? (color_[lane] + sky_[lane]) / float(n) : vec3(0.0f));
+            lanes_.set(3, lane, n ? sky_[lane] / float(n) : vec3(0.0f));
+            lanes_.set(6, lane, n ? blocked_[lane] / float(n) : 0.0f);
+        }
+    }
+
+  private:
+    TextureStore& textures_;
+    const Lanes& lanes_;
+    const RayPlan& plan_;
+    vec3 color_[kLanes] = {}, sky_[kLanes] = {};
+    float blocked_[kLanes] = {};
+};
+
+void IndirectSum::add(const SampleSpan& samples, std::span<const SeenByRay> seen, ConeRays& cone,
+                      Arena& arena) {
+    Arena::Mark mark = arena.mark();
+    for_each_map(lanes_, Map, samples.lane, [&](size_t begin, size_t end, int32_t map) {
+        const int lane = samples.lane[begin];
+        std::span<vec3> directions = arena.allocate_span<vec3>(end - begin);
+        std::span<vec3> light = arena.allocate_span<vec3>(end - begin);
+        for (size_t i = begin; i < end; ++i)
+            directions[i - begin] = cone.rays(plan_).direction(lane, samples.number[i]);
+        light_of_map(textures_, map, directions, sample_width(plan_.count[lane]), light.data());
+        for (size_t i = begin; i < end; ++i) sky_[lane] += seen[i].open * light[i - begin];
+    });
+    for (size_t i = 0; i < seen.size(); ++i) {
+        const vec3 open = seen[i].open;
+        color_[samples.lane[i]] += seen[i].color;
+        blocked_[samples.lane[i]] += 1 - (open.x + open.y + open.z) / 3;
+    }
+    arena.release(mark);
+}
+
+}  // namespace
+
+// What lies beyond the last bounce is black; a map alone costs no ray. The bounces are counted: all
+// are followed, the later ones with fewer rays.
 void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
-    enum { Map = kMoreArgs, Rows };
-    constexpr int kResults = 7;  // the color, what of it is sky, how much is blocked
     Lanes lanes(call);
-    ThreadMemory& memory = grid.memory;
-    vec3 sum[kLanes] = {}, sky[kLanes] = {};
-    float blocked[kLanes] = {};
-    // What lies beyond the last bounce is black; a map alone costs no ray.
-    bool bounces = grid.depth < frame_.quality.ray_depth &&
-                   grid.ray.diffuse < frame_.quality.diffuse_depth && !frame_.stopped();
     ConeRays cone(grid, lanes);
-    // The bounces are counted: all are followed, the later ones with fewer rays.
-    float share[kLanes] = {};
-    int samples[kLanes] = {};
-    for (int lane = 0; lane < kLanes; ++lane) {
-        if (!lanes.asks(lane)) continue;
-        samples[lane] = lanes.samples(kSamples, lane);
-        size_t point = lanes.point(lane);
-        bool shoots = lanes.number(kMaxdist, lane) > 0 && cone.count(lane) > 0;
-        if (!bounces && shoots) refuse_rays(grid, point, samples[lane]);
-        if (!bounces) continue;
-        share[lane] = fit_samples(grid, point, samples[lane]);
-        if (shoots && !spend_rays(grid, point, samples[lane])) samples[lane] = 0;
-    }
-    RayPlan plan;
-    for (int lane = 0; lane < kLanes; ++lane) {
-        bool shoots = lanes.asks(lane) && (bounces || lanes.integer(Map, lane) != 0);
-        plan.count[lane] = shoots && cone.count(lane) > 0 ? samples[lane] : 0;
-        plan.share[lane] = share[lane];
-    }
-    if (!plan.any()) {  // as beyond the last bounce
-        std::fill_n(call.results, kResults * kLanes, 0.0f);
-        return;
-    }
-    Arena::Mark mark = memory.arena.mark();
-    size_t most = is_noting(grid) ? 0 : kGridPoints;
-    std::span<vec3> dirs = memory.arena.allocate_span<vec3>(most);
-    std::span<vec3> light = memory.arena.allocate_span<vec3>(most);
-    see_samples(
-        grid, lanes, Rows, plan, deeper(grid, RayKind::Diffuse, 0), nested_,
+    auto reaches = [&](int lane) { return lanes.number(ConeRays::Maxdist, lane) > 0; };
+    const RayPlan plan = queue_.plan(RayKind::Indirect, grid, lanes, [&](int lane) {
+        return RayWish{.samples = cone.count(lane),
+                       .aims = cone.aims(lane),
+                       .shoots = reaches(lane),
+                       .unshot = lanes.integer(IndirectSum::Map, lane) != 0};
+    });
+    IndirectSum sum(*frame_.scene.textures, lanes, plan);
+    queue_.send(
+        {RayKind::Indirect, grid, lanes, plan, IndirectSum::Rows},
         [&](raytrace::RayBatch& rays, const SampleSpan& planned, uint32_t slot) {
             auto shoots = [&](size_t at) {
-                return bounces && lanes.number(kMaxdist, planned.lane[at]) > 0;
+                return plan.share[planned.lane[at]] > 0 && reaches(planned.lane[at]);
             };
             for (size_t i = 0, n; i < planned.size(); i += n) {  // runs that are shot or not
                 for (n = 1; i + n < planned.size() && shoots(i + n) == shoots(i);) ++n;
-                if (shoots(i))
-                    cone.rays(plan.count, plan.share)
-                        .add(rays, planned.subspan(i, n), slot + uint32_t(i));
+                if (shoots(i)) cone.rays(plan).add(rays, planned.subspan(i, n), slot + uint32_t(i));
             }
         },
-        [&](const SampleSpan& all, std::span<const SeenByRay> seen) {
-            for_each_map(lanes, Map, all.lane, [&](size_t begin, size_t end, int32_t map) {
-                int lane = all.lane[begin];
-                for (size_t i = begin; i < end; ++i)
-                    dirs[i - begin] =
-                        cone.rays(plan.count, plan.share).direction(lane, all.number[i]);
-                light_of_map(*frame_.scene.textures, map, dirs.first(end - begin),
-                             sample_width(samples[lane]), light.data());
-                for (size_t i = begin; i < end; ++i) sky[lane] += seen[i].open * light[i - begin];
-            });
-            for (size_t i = 0; i < seen.size(); ++i) {
-                vec3 open = seen[i].open;
-                sum[all.lane[i]] += seen[i].color;
-                blocked[all.lane[i]] += 1 - (open.x + open.y + open.z) / 3;
-            }
-        });
-    if (!is_noting(grid)) memory.arena.release(mark);
-    for (int lane = 0; lane < kLanes; ++lane) {
-        int n = plan.count[lane];
-        lanes.set(0, lane, n ? (sum[lane] + sky[lane]) / float(n) : vec3(0.0f));
-        lanes.set(3, lane, n ? sky[lane] / float(n) : vec3(0.0f));
-        lanes.set(6, lane, n ? blocked[lane] / float(n) : 0.0f);
-    }
+        SumSamples([&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
+            sum.add(samples, seen, cone, grid.memory.arena);
+        }));
+    sum.put();
 }
 
 }  // namespace kinora

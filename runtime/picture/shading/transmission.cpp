@@ -15,30 +15,9 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/columns/kernels.h"
 #include "runtime/picture/lights/kernels.h"
-#include "runtime/picture/shading/nested_rays.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
-
-void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
-                    const raytrace::HitBatch& from, uint32_t hit) {
-    set_ray(rays, i, org, dir, tfar);
-    set_triple(rays.first_org, i, org);
-    for (size_t k = 0; rays.spreads && k < 3; ++k) {
-        rays.dOdx[k][i] = from.dPdx[k][hit];
-        rays.dOdy[k][i] = from.dPdy[k][hit];
-        rays.dDdx[k][i] = rays.dDdy[k][i] = 0;
-    }
-    rays.t_passed[i] = 0;
-    rays.pixel_x[i] = from.pixel_x[hit];
-    rays.pixel_y[i] = from.pixel_y[hit];
-    rays.sample[i] = from.sample[hit];
-    rays.layer[i] = 0;
-    rays.share[i] = from.rays ? from.rays->share[from.ray[hit]] : 1.0f;
-    rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
-    rays.weight[i] = from.rays ? from.rays->weight[from.ray[hit]] : 1.0f;
-    rays.turns[i] = rays.spent[i] = 0;
-}
 
 // A ray that goes on ends where it was to end, as exactly as it did: the surface that the light
 // lies on may be no part of its way.
@@ -58,12 +37,10 @@ static void aim_at(raytrace::RayBatch& rays, size_t i, vec3 end) {
 
 // Closest hits on what is not opaque, each round shaded as grids; `through` is what passes. The
 // round after the last only asks whether anything is left: that lets nothing through.
-void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& from,
+void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& tag,
                                     ThreadMemory& memory, vec3* through) {
     const Scene& scene = frame_.scene;
     for (size_t r = 0; r < rays.count; ++r) through[rays.slot[r]] = vec3(1.0f);
-    RayTag tag = from;
-    tag.kind = RayKind::Transmission;
     Arena::Mark mark = memory.arena.mark();
     for (int round = 0; rays.count > 0; ++round) {
         NestedWavefront nested(memory);
@@ -117,7 +94,7 @@ void Transmission::pass_ends(const raytrace::RayBatch& rays, const raytrace::Hit
     memory.arena.release(mark);
 }
 
-void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+void Transmission::pass(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory,
                         std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
     uint32_t all[kGridPoints];
@@ -135,11 +112,11 @@ void Transmission::pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemo
         }
         which = which.first(met);
     }
-    pass_blocked(rays, which, from, memory, through);
+    pass_blocked(rays, which, tag, memory, through);
 }
 
 void Transmission::pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which,
-                                const RayTag& from, ThreadMemory& memory, std::span<vec3> through) {
+                                const RayTag& tag, ThreadMemory& memory, std::span<vec3> through) {
     uint8_t blocked[kGridPoints];
     raytrace::occluded(frame_.pose.accel, rays, which, raytrace::kMaskOpaque, blocked,
                        memory.counters.trace);
@@ -151,14 +128,14 @@ void Transmission::pass_blocked(raytrace::RayBatch& rays, std::span<const uint32
             raytrace::move_ray(rays, kept++, which[i]);
     }
     rays.count = kept;
-    if (kept > 0) pass_transparent(rays, from, memory, through.data());
+    if (kept > 0) pass_transparent(rays, tag, memory, through.data());
 }
 
-void Transmission::pass_blocked(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+void Transmission::pass_blocked(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory,
                                 std::span<vec3> through) {
     uint32_t all[kGridPoints];
     std::iota(all, all + rays.count, 0u);
-    pass_blocked(rays, {all, rays.count}, from, memory, through);
+    pass_blocked(rays, {all, rays.count}, tag, memory, through);
 }
 
 // ---- opacity of what rays meet ------------------------------------------------------------------
@@ -216,11 +193,11 @@ vec3 before_sample(const raytrace::HitBatch& samples, size_t i, vec3 P, vec3 to_
 }  // namespace
 
 ShadowQueue::ShadowQueue(const ShadingFrame& frame, Transmission& transmission,
-                         ThreadMemory& memory, const RayTag& tag)
+                         ThreadMemory& memory, const RayTag& from)
     : frame_(frame),
       transmission_(transmission),
       memory_(memory),
-      tag_(tag),
+      tag_(sent_tag(from, row_of(RayKind::Lamp), 0)),
       dims_(frame.any_transparent),
       straight_(frame.scene.volumes.empty()),
       mask_(dims_ && straight_ ? raytrace::kMaskAll : raytrace::kMaskOpaque),
@@ -352,7 +329,7 @@ void ShadowQueue::aim(Packet& packet) {
 uint32_t ShadowQueue::block(uint32_t lanes, uint32_t mask) {
     if (lanes == 0) return 0;
     packet_.active = lanes;
-    std::fill_n(packet_.mask, raytrace::kPacket, mask);
+    std::fill_n(packet_.mask, raytrace::kPacket, mask & row_of(RayKind::Lamp).sees);
     return frame_.pose.accel.occluded16(packet_, memory_.counters.trace);
 }
 
@@ -487,6 +464,7 @@ void ShadowQueue::keep(const Packet& packet, int lane) {
     vec3 dir(packet_.dir_x[lane], packet_.dir_y[lane], packet_.dir_z[lane]);
     size_t r = rest.count++;
     set_nested_ray(rest, r, org, dir, packet_.tfar[lane], *hits_, packet.hit[lane]);
+    rest.sees[r] = row_of(RayKind::Lamp).sees;
     rest.slot[r] = uint32_t(r);
     rest_targets_[r] = packet.target[lane];
 }

@@ -4,8 +4,9 @@
 
 #include <span>
 
+#include "runtime/picture/shading/lane_rays.h"
 #include "runtime/picture/shading/light_records.h"
-#include "runtime/picture/shading/nested_rays.h"
+#include "runtime/picture/shading/rays/smooth_surface.h"
 #include "runtime/picture/shading/volumes.h"
 
 namespace kinora {
@@ -17,20 +18,19 @@ class Transmission {
                  Volumes& volumes)
         : frame_(frame), kernels_(kernels), lights_(lights), volumes_(volumes) {}
 
-    // What passes of each ray; consumes the rays. Their slots are 0, 1, 2, ... `from`: the tag of
-    // the grid that sends them.
-    void pass(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+    // What passes of each ray; consumes the rays. Their slots are 0, 1, 2, ... `tag`: theirs.
+    void pass(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory,
               std::span<vec3> through);
     // The same of rays that are known to meet something; `through` is 1 before.
-    void pass_blocked(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+    void pass_blocked(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory,
                       std::span<vec3> through);
     // The same of rays that meet nothing opaque.
-    void pass_transparent(raytrace::RayBatch& rays, const RayTag& from, ThreadMemory& memory,
+    void pass_transparent(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory,
                           vec3* through);
 
   private:
     // The same of the rays of these numbers, which ascend; the others pass.
-    void pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which, const RayTag& from,
+    void pass_blocked(raytrace::RayBatch& rays, std::span<const uint32_t> which, const RayTag& tag,
                       ThreadMemory& memory, std::span<vec3> through);
     void pass_ends(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
                    const RayTag& ray, ThreadMemory& memory, vec3* through);
@@ -48,9 +48,9 @@ class Transmission {
 // go together. What is opaque takes all of Cl; what is transparent dims it.
 class ShadowQueue final : public LightShadows {
   public:
-    // `tag`: of all grids.
+    // `from`: the tag of all grids.
     ShadowQueue(const ShadingFrame& frame, Transmission& transmission, ThreadMemory& memory,
-                const RayTag& tag);
+                const RayTag& from);
     // Grids, points and colours must live until finish().
     void cast(const Grid& grid, const LightPoints& at, const SentLight& light) override;
     void finish();
@@ -121,9 +121,5 @@ class ShadowRays final : public LightShadows {
     const ShadingFrame& frame_;
     Transmission& transmission_;
 };
-
-// A nested ray without footprint of its own.
-void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
-                    const raytrace::HitBatch& from, uint32_t hit);
 
 }  // namespace kinora

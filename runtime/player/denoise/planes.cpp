@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/base/parallel.h"
-#include "runtime/picture/shading/grid.h"
 #include "runtime/player/denoise/kernels.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 

@@ -6,10 +6,10 @@
 
 #include "jit/ir/kernel_call.h"
 #include "runtime/picture/shading/grid.h"
-#include "runtime/picture/shading/nested_rays.h"
 #include "runtime/player/pixel/point_inputs.h"
 #include "runtime/scene/kernels/kernel_host.h"
 #include "runtime/scene/kernels/kernel_probe.h"
+#include "runtime/scene/shaders/scene_host.h"
 
 namespace kinora {
 
@@ -108,9 +108,10 @@ PointRecorder::~PointRecorder() {
 }
 
 void PointRecorder::run(const jit::KernelCall& call) {
+    // No NotingHost, whose kernel runs again.
     auto* host = dynamic_cast<GridHost*>(static_cast<KernelHost*>(call.host));
     const Grid* grid = host ? &host->grid() : nullptr;
-    bool seen = grid && grid->depth == 0 && grid->count() == 1 && !is_noting(*grid) &&
+    bool seen = grid && grid->depth == 0 && grid->count() == 1 &&
                 grid->look->kind == ShaderInstanceKind::Surface &&
                 &call.kernel == &grid->look->full.kernel();
     if (!seen) return call.run();

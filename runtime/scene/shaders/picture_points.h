@@ -15,12 +15,16 @@ struct ShaderInstance;
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
 
+// rayinfo("type") of the points that a ray sees.
+enum class RayType : uint8_t { Camera, Specular, Diffuse, Transmission };
+
 // How the rays came about that see a grid's points.
-enum class RayKind : uint8_t { Camera, Specular, Diffuse, Transmission };
 struct RayTag {
-    RayKind kind = RayKind::Camera;
+    RayType type = RayType::Camera;
     int32_t label = 0;                   // interned; of trace or gather
-    uint32_t specular = 0, diffuse = 0;  // rays of each kind on the way from the eye
+    uint32_t specular = 0, diffuse = 0;  // rays of each type on the way from the eye
+
+    bool operator==(const RayTag&) const = default;
 };
 
 // Where a frame is seen from: "current" space.

@@ -206,7 +206,7 @@ Fact depth(const Asker& asker) {
 }
 Fact kind(const Asker& asker) {
     constexpr std::string_view kNames[] = {"camera", "specular", "diffuse", "transmission"};
-    return kNames[size_t(asker.seen->ray.kind)];
+    return kNames[size_t(asker.seen->ray.type)];
 }
 // Nothing is shaded to be kept: neither a cache nor a grid.
 Fact intent(const Asker&) {
@@ -238,7 +238,7 @@ Fact ray_diffuse_depth(const Asker& asker) {
     return double(asker.seen->ray.diffuse);
 }
 Fact shadow_depth(const Asker& asker) {
-    return asker.seen->ray.kind == RayKind::Transmission ? 1.0 : 0.0;
+    return asker.seen->ray.type == RayType::Transmission ? 1.0 : 0.0;
 }
 
 constexpr Row kRay[] = {

@@ -1,18 +1,20 @@
-// runtime/picture/shading/smooth_surface.cpp: the surface that vertex normals describe: where rays
-// to lights leave it, and how it bends.
+// runtime/picture/shading/rays/smooth_surface.cpp: the surface that vertex normals describe: where
+// rays to lights leave it, and how it bends.
 //
 // P is laid on the planes that the normals of the triangle's corners are perpendicular to, where
 // these lie above it, and the three places are mixed by its barycentrics. The result lies on or
 // above every smooth surface with those normals that bends one way. The facet is left only as far
 // as it looks away from the light: where it sees the light, it shades nothing of itself.
+#include "runtime/picture/shading/rays/smooth_surface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "raytrace/hits.h"
-#include "runtime/picture/shading/nested_rays.h"
 #include "runtime/scene/scene.h"
+#include "runtime/scene/transforms.h"
 
 namespace kinora {
 

@@ -1,0 +1,498 @@
+// runtime/picture/shading/ray_queue.cpp: the stages of the queue of rays.
+#include "runtime/picture/shading/ray_queue.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "raytrace/hits.h"
+#include "rsl/model/renderer_services.h"
+#include "runtime/picture/shading/hit_shader.h"
+#include "runtime/picture/shading/kernel_runner.h"
+#include "runtime/picture/shading/transmission.h"
+#include "runtime/scene/scene.h"
+
+namespace kinora {
+
+namespace {
+
+constexpr float kLeastLight = 1e-4f;  // of what lies behind them, still worth a ray
+constexpr float kLeastRays = 16;      // that any point may shoot
+
+bool is_too_deep(const RayKindRow& row, const Grid& grid) {
+    const Quality& quality = grid.frame.quality;
+    return is_too_deep(row,
+                       {grid.depth, grid.ray.diffuse, quality.ray_depth, quality.diffuse_depth});
+}
+
+}  // namespace
+
+void set_kind(raytrace::RayBatch& rays, size_t first, RayKind kind) {
+    std::fill(rays.sees + first, rays.sees + rays.count, row_of(kind).sees);
+}
+
+PointBudget budget_of(Grid& grid, size_t point) {
+    PointBudget budget;
+    const uint32_t hit = grid.points[std::min(point, grid.count() - 1)];
+    if (const raytrace::RayBatch* rays = grid.hits.rays)
+        budget.share = rays->share[grid.hits.ray[hit]];
+    budget.depth = grid.depth;
+    budget.most_depth = grid.frame.quality.ray_depth;
+    budget.most_refused = grid.frame.quality.ray_limit;
+    budget.out_of_rays = &grid.memory.counters.out_of_rays;
+    if (point < grid.calls.size()) budget.calls = &grid.calls[point];
+    if (point >= grid.rays.size()) return budget;
+    budget.account = &grid.rays[point];
+    budget.most = float(grid.frame.quality.ray_limit);
+    const PicturePoints& seen = grid.of_surface();  // a light spends what the lit points have
+    if (grid.depth == 0 || !seen.hits.rays) return budget;
+    const uint32_t of_seen = seen.points[point + (grid.lit ? grid.lit_first : 0)];
+    const float share = seen.hits.rays->share[seen.hits.ray[of_seen]];
+    budget.most = std::max(kLeastRays, budget.most * share);
+    return budget;
+}
+
+// ---- one way of two -----------------------------------------------------------------------------
+
+namespace {
+
+constexpr float kLeastWeight = 1.0f / 256;  // of rays that are followed in any case
+constexpr uint32_t kWaySalt = 0x3c6ef372u;
+
+// A number in [0, 1) for the choice at a hit: stratified over the samples of a pixel where these
+// are known.
+float number_of_choice(const raytrace::HitBatch& hits, uint32_t hit, uint32_t frame_seed) {
+    if (hits.depth > 0)
+        return float(raytrace::unit_interval(
+            raytrace::hash(random_of(hits, hit, frame_seed), frame_seed, kWaySalt) & ~0xffu));
+    uint32_t pixel = raytrace::hash(hits.pixel_x[hit], hits.pixel_y[hit], hits.layer[hit]);
+    uint32_t seed = raytrace::hash(pixel, frame_seed, kWaySalt);
+    return std::min(float(raytrace::stratified_sample(hits.sample[hit], seed).x), 0x1.fffffep-1f);
+}
+
+// How a ray goes on at a point that reflects `weight` of what a traced ray sees and lets `through`
+// pass: both ways at its first hits, at later ones either, at random by its share. What the traced
+// ray sees counts `factor` times (0: it is not shot). Below 0: not known; the way is followed.
+TracedRay choose_way(Grid& grid, size_t point, PointRays* own, float weight, float through) {
+    uint32_t hit = grid.points[std::min(point, grid.count() - 1)];
+    const raytrace::RayBatch* rays = grid.hits.rays;
+    uint32_t ray = grid.hits.ray[hit];
+    float before = rays ? rays->weight[ray] : 1.0f;
+    if (!(weight >= 0) || !own || !rays) return {1, before};
+    float reflected = before * weight;
+    if (!(reflected > 0)) return {0, 0};
+    // A second call of the point has its ray alone to choose.
+    bool passes = grid.goes_on && !own->reflects && through >= 0;
+    own->reflects = true;
+    float passing = passes ? before * through : 0.0f;
+    float all = reflected + passing;
+    bool first = std::max(rays->turns[ray], grid.depth) < grid.frame.quality.split;
+    if (first || !std::isfinite(all)) return {1, reflected};
+    // Rays that count for little end at random, those that are left count for more.
+    float kept = std::min(1.0f, all / kLeastWeight);
+    float reflects = kept * (reflected / all), goes_on = kept * (passing / all);
+    float number = number_of_choice(grid.hits, hit, grid.frame.seed);
+    if (number < reflects) {
+        if (passes) own->onward = 0;
+        return {1 / reflects, reflected / reflects};
+    }
+    if (passes) own->onward = number < reflects + goes_on ? 1 / goes_on : 0.0f;
+    return {0, 0};
+}
+
+}  // namespace
+
+// ---- plan ---------------------------------------------------------------------------------------
+
+namespace {
+
+// Whether rays of a kind may leave the points of a grid.
+enum class Leave : uint8_t { Yes, TooDeep, Never };
+
+Leave may_leave(const RayKindRow& row, const Grid& grid) {
+    if (is_too_deep(row, grid)) return Leave::TooDeep;
+    return grid.shadows && !grid.frame.stopped() ? Leave::Yes : Leave::Never;
+}
+
+// The rays of one lane.
+struct LanePlan {
+    int count = 0;
+    float share = 0;
+    TracedRay way;
+};
+
+LanePlan plan_by_share(Leave leave, Grid& grid, size_t point, const RayWish& wish) {
+    LanePlan plan;
+    if (!wish.shoots) return {wish.samples, 0, {}};
+    const PointBudget budget = budget_of(grid, point);
+    auto refuse = [&] {
+        const bool more = refuse_rays(budget, wish.samples);
+        plan.count = more && wish.unshot ? wish.samples : 0;
+        return plan;
+    };
+    if (leave == Leave::TooDeep || (leave == Leave::Never && wish.turns)) return refuse();
+    if (leave == Leave::Never || !wish.aims) return plan;
+    const float share = ray_share(budget, wish.samples);
+    if (share == 0) return refuse();
+    plan.way = choose_way(grid, point, budget.account, wish.weight, wish.through);
+    if (!(plan.way.factor > 0) || !spend_rays(budget, wish.samples)) return plan;
+    plan.count = wish.samples;
+    plan.share = share;
+    return plan;
+}
+
+LanePlan plan_by_fit(Leave leave, const PointBudget& budget, const RayWish& wish) {
+    LanePlan plan{wish.samples, 0, {}};
+    const bool shoots = wish.shoots && wish.aims;
+    if (leave == Leave::Yes) {
+        plan.share = fit_samples(budget, plan.count);
+        if (shoots && !spend_rays(budget, plan.count)) plan.count = 0;
+    } else {
+        if (shoots) refuse_rays(budget, plan.count);
+        if (!wish.unshot) plan.count = 0;
+    }
+    if (!wish.aims) plan.count = 0;
+    return plan;
+}
+
+LanePlan plan_by_samples(Leave leave, const PointBudget& budget, const RayWish& wish) {
+    const bool shoots = leave == Leave::Yes && wish.aims;
+    return {shoots ? spend_samples(budget, wish.samples) : 0, 1, {}};
+}
+
+LanePlan plan_lane(const RayKindRow& row, Leave leave, Grid& grid, size_t point,
+                   const RayWish& wish) {
+    switch (row.budget) {
+        case RayBudget::Share:
+            return plan_by_share(leave, grid, point, wish);
+        case RayBudget::Fit:
+            return plan_by_fit(leave, budget_of(grid, point), wish);
+        case RayBudget::Samples:
+            return plan_by_samples(leave, budget_of(grid, point), wish);
+        case RayBudget::Free:
+            break;
+    }
+    return {wish.samples, 1, {}};
+}
+
+}  // namespace
+
+// Calls of kinds that are noted see nothing meanwhile; calls of other kinds send nothing.
+bool RayQueue::is_noting(const Grid& grid) {
+    return grid.notes && grid.notes->open();
+}
+
+RayPlan RayQueue::plan(RayKind kind, Grid& grid, const Lanes& lanes,
+                       FunctionRef<RayWish(int lane)> wish_of) const {
+    const RayKindRow& row = row_of(kind);
+    const Leave leave = may_leave(row, grid);
+    const bool waits = !row.noted && is_noting(grid);
+    RayPlan plan;
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
+        if (!lanes.asks(lane)) continue;
+        const RayWish wish = wish_of(lane);
+        if (wish.samples == 0) continue;
+        const LanePlan own = plan_lane(row, leave, grid, lanes.point(lane), wish);
+        plan.count[lane] = waits ? 0 : own.count;
+        plan.share[lane] = own.share;
+        plan.way[lane] = own.way;
+    }
+    return plan;
+}
+
+// ---- note or trace, shade, sum ------------------------------------------------------------------
+
+namespace {
+
+// Calls f with a part of the call for the rays of each label, and their tag.
+template <class F>
+void for_each_label(const RayCall& call, F&& f) {
+    if (!call.plan.any()) return;
+    const RayKindRow& row = row_of(call.kind);
+    if (call.label < 0) return f(call, sent_tag(call.grid.ray, row, 0));
+    call.lanes.for_each_text(call.label, [&](const Lanes& alike) {
+        const int32_t label = alike.integer(call.label, alike.first());
+        f(RayCall{call.kind, call.grid, alike, call.plan, call.rows, call.label, call.distances},
+          sent_tag(call.grid.ray, row, label));
+    });
+}
+
+// Calls f(samples) for the samples of a call, as many at a time as a batch has room for.
+template <class F>
+void for_each_part(const RayCall& call, F&& f) {
+    Arena& arena = call.grid.memory.arena;
+    std::span<uint8_t> lane = arena.allocate_span<uint8_t>(kGridPoints);
+    std::span<uint32_t> number = arena.allocate_span<uint32_t>(kGridPoints);
+    PlannedSamples planned(call.lanes, call.plan);
+    while (const size_t n = planned.take(lane.data(), number.data(), kGridPoints))
+        f(SampleSpan{lane.first(n), number.first(n)});
+}
+
+}  // namespace
+
+void RayQueue::send(const RayCall& call, const AddSamples& add, const SumSamples& sum) {
+    for_each_label(
+        call, [&](const RayCall& alike, const RayTag& tag) { send_alike(alike, tag, add, sum); });
+}
+
+void RayQueue::send_alike(const RayCall& call, const RayTag& tag, const AddSamples& add,
+                          const SumSamples& sum) {
+    const RayKindRow& row = row_of(call.kind);
+    Grid& grid = call.grid;
+    RayNotes* notes = row.noted ? grid.notes : nullptr;
+    if (notes && notes->open()) return notes->note(call, tag, add);
+    Arena& arena = grid.memory.arena;
+    Arena::Mark mark = arena.mark();
+    if (auto found = notes ? notes->find(call) : std::nullopt) {
+        for_each_part(call, [&](const SampleSpan& samples) {
+            sum(samples, found->first(samples.size()));
+            found = found->subspan(samples.size());
+        });
+    } else {
+        std::span<SeenByRay> seen = arena.allocate_span<SeenByRay>(kGridPoints);
+        NestedWavefront batch(grid.memory);
+        raytrace::RayBatch& rays = batch->rays;
+        rays.reserve(kGridPoints);
+        for_each_part(call, [&](const SampleSpan& samples) {
+            rays.count = 0;
+            std::fill_n(seen.begin(), samples.size(), SeenByRay{});
+            add(rays, samples, 0);
+            set_kind(rays, 0, call.kind);
+            if (row.finds == RayFinds::Color)
+                see(rays, grid.depth + 1, tag, grid.memory, seen);
+            else
+                pass(rays, tag, grid.memory, call.distances, seen);
+            sum(samples, seen.first(samples.size()));
+        });
+    }
+    arena.release(mark);
+}
+
+void RayQueue::send(const RayCall& call, const AddSamples& add, const MeetSamples& meet) {
+    ThreadMemory& memory = call.grid.memory;
+    Arena::Mark mark = memory.arena.mark();
+    NestedWavefront batch(memory);
+    raytrace::RayBatch& rays = batch->rays;
+    rays.reserve(kGridPoints);
+    for_each_label(call, [&](const RayCall& alike, const RayTag& tag) {
+        for_each_part(alike, [&](const SampleSpan& samples) {
+            rays.count = 0;
+            add(rays, samples, 0);
+            if (rays.count == 0) return;
+            set_kind(rays, 0, call.kind);
+            Arena::Mark part = memory.arena.mark();
+            NestedWavefront below(memory);
+            below->hits.reserve(kGridPoints);
+            const raytrace::HitBatch& hits =
+                raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskAll, call.grid.depth + 1,
+                                below->hits, memory.counters.trace);
+            if (hits.count > 0) meet(samples, rays, hits, tag);
+            memory.arena.release(part);
+        });
+    });
+    memory.arena.release(mark);
+}
+
+// Rays that meet nothing (more) run through the atmosphere to the scene's end.
+void RayQueue::see_beyond(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                          const RayTag& tag, ThreadMemory& memory, std::span<SeenByRay> seen) {
+    Arena::Mark mark = memory.arena.mark();
+    NestedWavefront nested(memory);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& ends =
+        raytrace::missed(rays, hits, frame_.miss_distance, nested->hits);
+    raytrace::ShadeResult result = take_colors(memory.arena, ends.count);
+    hits_.shade_misses(ends, tag, memory, result);
+    for (size_t k = 0; k < ends.count; ++k) {
+        SeenByRay& at = seen[rays.slot[ends.ray[k]]];
+        at.color += at.open * triple(result.Ci, k);
+        at.open *= vec3(1.0f) - stopped_by(triple(result.Oi, k));
+    }
+    memory.arena.release(mark);
+}
+
+void RayQueue::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
+                   ThreadMemory& memory, std::span<SeenByRay> seen) {
+    const raytrace::Accel& accel = frame_.pose.accel;
+    for (size_t r = 0; r < rays.count; ++r) seen[rays.slot[r]] = {};
+    Arena::Mark mark = memory.arena.mark();
+    for (int layer = 0; rays.count > 0; ++layer) {
+        NestedWavefront nested(memory);
+        nested->hits.reserve(kGridPoints);
+        const raytrace::HitBatch& hits = raytrace::trace(accel, rays, raytrace::kMaskAll, depth,
+                                                         nested->hits, memory.counters.trace);
+        if (frame_.miss_distance > 0 && hits.count < rays.count)
+            see_beyond(rays, hits, tag, memory, seen);
+        if (hits.count == 0) break;
+        if (layer == frame_.max_layers) {  // what is left is not seen
+            for (size_t h = 0; h < hits.count; ++h) seen[rays.slot[hits.ray[h]]].open = vec3(0.0f);
+            memory.counters.too_deep += hits.count;
+            break;
+        }
+        Arena::Mark layer_mark = memory.arena.mark();
+        raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
+        result.passages = memory.arena.allocate_span<raytrace::Passage>(hits.count).data();
+        std::fill_n(result.passages, hits.count, raytrace::Passage{});
+        hits_.shade(hits, tag, memory, result);
+        size_t kept = 0;
+        for (size_t h = 0; h < hits.count; ++h) {
+            uint32_t r = hits.ray[h], slot = rays.slot[r];
+            SeenByRay& at = seen[slot];
+            at.color += at.open * triple(result.Ci, h);
+            vec3 passing = vec3(1.0f) - stopped_by(triple(result.Oi, h));
+            const raytrace::Passage& passage = result.passages[h];
+            at.open *= passing * passage.onward;
+            at.distance = std::min(at.distance, hits.t[h]);
+            if (std::max(at.open.x, std::max(at.open.y, at.open.z)) < kLeastLight) {
+                at.open = vec3(0.0f);
+                continue;
+            }
+            uint32_t medium = medium_behind(frame_.scene, hits, h);
+            raytrace::pass_through(accel, rays, kept, hits, h);
+            rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
+            rays.turns[kept] += passage.turns;
+            rays.spent[kept] += passage.spent;
+            rays.medium[kept++] = medium;
+        }
+        rays.passing = true;
+        rays.count = kept;
+        memory.arena.release(layer_mark);
+    }
+    rays.passing = false;
+    memory.arena.release(mark);
+}
+
+// The nearest surface along each ray.
+void RayQueue::find_distances(const raytrace::RayBatch& rays, ThreadMemory& memory,
+                              std::span<SeenByRay> seen) const {
+    NestedWavefront nested(memory);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& hits = raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskAll, 1,
+                                                     nested->hits, memory.counters.trace);
+    for (size_t h = 0; h < hits.count; ++h) seen[rays.slot[hits.ray[h]]].distance = hits.t[h];
+}
+
+void RayQueue::pass(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory,
+                    bool distances, std::span<SeenByRay> seen) {
+    const size_t count = rays.count;
+    for (size_t r = 0; r < count; ++r) seen[rays.slot[r]] = {};
+    if (distances) find_distances(rays, memory, seen);
+    Arena::Mark mark = memory.arena.mark();
+    std::span<vec3> through = memory.arena.allocate_span<vec3>(count);
+    transmission_.pass(rays, tag, memory, through);
+    for (size_t slot = 0; slot < count; ++slot) seen[slot].open = through[slot];
+    memory.arena.release(mark);
+}
+
+// ---- notes --------------------------------------------------------------------------------------
+
+struct RayNotes::Note {
+    const Grid* grid;
+    int32_t first;  // lane of the call
+    uint32_t mask;
+    int rows;
+    const float* args;  // [row][lane]
+    RayPlan plan;
+    std::span<SeenByRay> seen;
+    Note* next;
+};
+
+void RayNotes::start() {
+    open_ = true;
+    batch_->rays.reserve(kGridPoints);
+    batch_->rays.count = 0;
+    targets_ = memory_.arena.allocate_span<SeenByRay*>(kGridPoints);
+}
+
+void RayNotes::finish() {
+    flush();
+    open_ = false;
+}
+
+void RayNotes::answer(const Grid& grid) {
+    for (next_ = first_; next_ && next_->grid != &grid;) next_ = next_->next;
+}
+
+void RayNotes::reset() {
+    first_ = last_ = next_ = nullptr;
+}
+
+RayNotes::Note& RayNotes::add_note(const RayCall& call) {
+    Arena& arena = memory_.arena;
+    const size_t floats = size_t(call.rows) * jit::kMaxLanes;
+    Note* note = arena.allocate_span<Note>(1).data();
+    float* args = arena.allocate_span<float>(floats).data();
+    std::copy_n(call.lanes.call().args, floats, args);
+    const size_t rays = PlannedSamples(call.lanes, call.plan).count();
+    *note = {&call.grid,
+             call.lanes.call().first,
+             call.lanes.mask(),
+             call.rows,
+             args,
+             call.plan,
+             arena.allocate_span<SeenByRay>(rays),
+             nullptr};
+    (last_ ? last_->next : first_) = note;
+    last_ = note;
+    return *note;
+}
+
+void RayNotes::note(const RayCall& call, const RayTag& tag, const AddSamples& add) {
+    SeenByRay* seen = add_note(call).seen.data();
+    PlannedSamples planned(call.lanes, call.plan);
+    uint8_t lane[kSixteen];
+    uint32_t number[kSixteen];
+    raytrace::RayBatch& rays = batch_->rays;
+    for (;;) {
+        if (tag != tag_ || rays.count == kGridPoints) flush();
+        tag_ = tag;
+        const size_t first = rays.count;
+        const size_t n =
+            planned.take(lane, number, std::min<size_t>(kSixteen, kGridPoints - first));
+        if (n == 0) return;
+        std::fill_n(seen, n, SeenByRay{});
+        add(rays, {{lane, n}, {number, n}}, uint32_t(first));
+        set_kind(rays, first, call.kind);
+        for (size_t r = first; r < rays.count; ++r) {
+            targets_[r] = seen + (rays.slot[r] - first);
+            rays.slot[r] = uint32_t(r);
+        }
+        seen += n;
+    }
+}
+
+std::optional<std::span<const SeenByRay>> RayNotes::find(const RayCall& call) {
+    const jit::ServiceCall& asked = call.lanes.call();
+    auto is_of = [&](const Note* note) { return note && note->grid == &call.grid; };
+    while (is_of(next_) && next_->first < asked.first) next_ = next_->next;
+    for (Note* n = next_; is_of(n) && n->first == asked.first; n = n->next) {
+        const bool same = n->mask == call.lanes.mask() && n->rows == call.rows &&
+                          same_rays(n->plan, call.plan) &&
+                          same_arguments(n->args, asked.args, call.rows, n->mask);
+        if (!same) continue;
+        next_ = n->next;
+        return n->seen;
+    }
+    return {};
+}
+
+void RayNotes::flush() {
+    raytrace::RayBatch& rays = batch_->rays;
+    const size_t count = rays.count;
+    if (count == 0) return;
+    Arena::Mark mark = memory_.arena.mark();
+    std::span<SeenByRay> seen = memory_.arena.allocate_span<SeenByRay>(count);
+    queue_.see(rays, depth_, tag_, memory_, seen);
+    for (size_t r = 0; r < count; ++r) *targets_[r] = seen[r];
+    rays.count = 0;
+    memory_.arena.release(mark);
+}
+
+bool sends_noted_rays(const Grid& grid) {
+    return std::ranges::any_of(ray_kinds(), [&](const RayKindRow& row) {
+        return row.noted && !is_too_deep(row, grid) && calls_service(grid.look->full, row.kind);
+    });
+}
+
+}  // namespace kinora

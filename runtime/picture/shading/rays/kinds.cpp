@@ -1,0 +1,46 @@
+// runtime/picture/shading/rays/kinds.cpp: the table of the kinds of rays.
+#include "runtime/picture/shading/rays/kinds.h"
+
+#include "raytrace/accel.h"
+
+namespace kinora {
+
+namespace {
+
+using raytrace::kMaskAll;
+
+constexpr RayKindRow kRayKinds[] = {
+    {RayKind::Trace, "trace", RayType::Specular, kMaskAll, RayBudget::Share, RayFinds::Color, true},
+    {RayKind::Transmission, "transmission", RayType::Transmission, kMaskAll, RayBudget::Samples,
+     RayFinds::Passing, false},
+    {RayKind::Occlusion, "occlusion", RayType::Transmission, kMaskAll, RayBudget::Samples,
+     RayFinds::Passing, false},
+    {RayKind::Indirect, "indirectdiffuse", RayType::Diffuse, kMaskAll, RayBudget::Fit,
+     RayFinds::Color, true},
+    {RayKind::Gather, "gather", RayType::Specular, kMaskAll, RayBudget::Share, RayFinds::Hit,
+     false},
+    {RayKind::Lamp, "", RayType::Transmission, kMaskAll, RayBudget::Free, RayFinds::Passing, false},
+};
+
+}  // namespace
+
+std::span<const RayKindRow> ray_kinds() {
+    return kRayKinds;
+}
+
+RayTag sent_tag(const RayTag& from, const RayKindRow& row, int32_t label) {
+    RayTag tag = from;
+    tag.type = row.type;
+    if (row.finds == RayFinds::Passing) return tag;  // which is no further ray of a path
+    tag.label = label;
+    (row.type == RayType::Diffuse ? tag.diffuse : tag.specular) += 1;
+    return tag;
+}
+
+bool is_too_deep(const RayKindRow& row, const RayDepth& at) {
+    if (row.finds == RayFinds::Passing) return false;
+    return at.depth >= at.most_depth ||
+           (row.type == RayType::Diffuse && at.diffuse >= at.most_diffuse);
+}
+
+}  // namespace kinora
