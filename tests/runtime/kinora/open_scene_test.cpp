@@ -10,6 +10,8 @@
 #include <iterator>
 
 #include "runtime/base/check.h"
+#include "runtime/base/parallel.h"
+#include "runtime/scene/kernels/kernel_probe.h"
 #include "tests/folders.h"
 
 namespace kinora {
@@ -181,6 +183,29 @@ TEST(OpenScene, AFailedCheckIsAFinding) {
     EXPECT_NE(found.find("CHECK failed: !fails [INTERNAL_CHECK]"), std::string::npos) << found;
     fails = false;
     EXPECT_TRUE(scene.render(0, film));
+}
+
+// The same on the threads that shade, behind the boundaries of tasks and services.
+TEST(OpenScene, ACheckThatFailsWhileShadingIsAFindingToo) {
+    class Fails : public KernelProbe {
+      public:
+        void run(const jit::KernelCall& call) override {
+            call.run();
+            CHECK_EQ(call.count, 0u);
+        }
+    } fails;
+    set_thread_count(2);
+    OpenScene scene(of_assets("scenes/matte.dae"));
+    ASSERT_EQ(scene.open(), SceneError::None);
+    const raytrace::Film whole = rendered(scene);
+    probe_kernels(&fails);
+    raytrace::Film film;
+    EXPECT_FALSE(scene.render(0.5, film));
+    probe_kernels(nullptr);
+    EXPECT_NE(text_of_findings(scene).find("call.count == 0u"), std::string::npos)
+        << text_of_findings(scene);
+    EXPECT_TRUE(same_pixels(whole, rendered(scene)));
+    set_thread_count(1);
 }
 
 TEST(OpenScene, APoseDependsOnItsTimeAlone) {
