@@ -78,7 +78,7 @@ struct RayBatch {
     float* time = nullptr;
     uint32_t* sees = nullptr;  // ray masks: what it may meet of what the batch is traced for; at
                                // first all
-    bool spreads = true;  // the next four count; else hits have no footprints
+    bool spreads = true;       // the next four count; else hits have no footprints
     float* dOdx[3] = {};
     float* dOdy[3] = {};
     float* dDdx[3] = {};
