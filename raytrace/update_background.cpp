@@ -27,7 +27,7 @@ void Updater::start_background() {
     build.thread = std::thread([&build] {
         try {
             build.scene.commit();
-        } catch (const std::exception&) {
+        } catch (const std::exception&) {  // none may leave a thread; the tree in use serves on
             build.failed = true;
         }
         build.done.store(true, std::memory_order_release);

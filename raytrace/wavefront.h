@@ -76,8 +76,8 @@ struct RayBatch {
     float* tnear = nullptr;
     float* tfar = nullptr;
     float* time = nullptr;
-    uint32_t* sees = nullptr;  // ray masks: what it may meet of what the batch is traced for; at
-                               // first all
+    uint32_t* sees = nullptr;  // a ray mask each: geometry outside it lets the ray pass, whatever
+                               // the batch is traced for. All bits from the start
     bool spreads = true;       // the next four count; else hits have no footprints
     float* dOdx[3] = {};
     float* dOdy[3] = {};

@@ -1,4 +1,5 @@
 // collada/extract/common.cpp: profile_COMMON: a shading model and its slots.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -136,7 +137,7 @@ std::optional<int> blender_version(std::string_view tool) {
     if (!tool.starts_with(kName)) return std::nullopt;
     tool.remove_prefix(kName.size());
     if (!take_numbers<int>(tool, '.', version)) return std::nullopt;
-    return version[0] > 99 ? 9999 : 100 * version[0] + version[1];
+    return 100 * std::min(version[0], 99) + version[1];
 }
 
 namespace {

@@ -36,13 +36,18 @@ SceneError OpenScene::build() {
     return checked(SceneError::Internal, [&] { return build_source(); });
 }
 
-// A pose that a failed check left halfway begins anew.
+// A pose that a failed check left halfway begins anew, since its memory of frames may be torn. What
+// it is seen by stays. Without a scene nothing is done.
 template <class Body>
 bool OpenScene::in_pose(const Body& body) {
+    if (!is_built()) return false;
     const size_t before = internal_checks_;
     const bool done = checked(false, body);
-    if (internal_checks_ != before && built_.scene)
+    if (internal_checks_ != before) {
+        const uint32_t camera = built_.pose->camera;
         built_.pose = std::make_unique<Pose>(*built_.scene);
+        built_.pose->camera = camera;
+    }
     return done;
 }
 

@@ -58,11 +58,13 @@ class OpenScene {
     // small pictures; a `stop` that is not 0 ends them, and each frame at its next rays. Called by
     // pose() and render() where it was not.
     void ready_frames(const std::atomic<int>* stop = nullptr);
-    // Brings pose() to a time in seconds. False where the camera makes no picture.
+    // Brings pose() to a time in seconds. False where the camera makes no
+    // picture, or no scene is built.
     bool pose(double seconds);
     // Renders the scene at a time in seconds into `film` (linear, associated alpha). Displaced
     // meshes that are too coarse for the view are diced again for this frame, so that a picture
-    // depends on its time alone. False where there is no whole picture; findings say why.
+    // depends on its time alone. False where there is no whole picture; findings say why. False
+    // without a scene that is built, too.
     bool render(double seconds, raytrace::Film& film, RenderedFrame* cost = nullptr,
                 const raytrace::Progress* progress = nullptr);
 

@@ -223,6 +223,9 @@ TEST(OpenScene, WithoutItsSourceIsBuiltOnce) {
     EXPECT_FALSE(scene.imported());
     EXPECT_FALSE(scene.set_param("*.Kd", "1"));
     EXPECT_EQ(scene.build(), SceneError::Unreadable);
+    raytrace::Film film;
+    EXPECT_FALSE(scene.render(0, film));
+    EXPECT_FALSE(scene.pose(0));
 }
 
 }  // namespace
