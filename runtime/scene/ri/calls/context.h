@@ -1,0 +1,92 @@
+// runtime/scene/ri/calls/context.h: what the C functions of ri.h work on: declarations, handles,
+// the error handler, and the sink that takes the calls.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/base/diagnostic.h"
+#include "runtime/scene/ri/calls/call.h"
+#include "runtime/scene/ri/calls/ri.h"
+
+namespace kinora::ri {
+
+// How a finding is told to an error handler.
+struct ErrorCode {
+    int code;      // RIE_BADTOKEN
+    int severity;  // RIE_ERROR
+};
+ErrorCode error_code(const FindingInfo& finding);
+
+// How many steps a basis takes between patches, and how many numbers a colour has: what the counts
+// of values depend on. An attribute, and an option.
+struct CountState {
+    int ustep = 3, vstep = 3;
+    uint32_t color_samples = 3;
+};
+
+// The numbers of values that a call's variables have (RIB.md, section 7). Nothing: the arguments
+// contradict each other; `why` says how.
+struct CountedCall {
+    Counts counts;
+    std::string why;  // "": all is well
+};
+CountedCall count_values(Request request, std::span<const Values> arguments,
+                         const CountState& state, uint32_t vertices);
+
+// One begun by RiBegin, or by a reader of files. Used by one thread at a time.
+class Context {
+  public:
+    Context(std::unique_ptr<CallSink> sink, Diagnostics& diagnostics);
+    ~Context();
+    Context(const Context&) = delete;
+
+    // The one of this thread; null: none was begun.
+    static Context* current();
+    static void make_current(Context* context);
+
+    // Reports a finding at `where` and tells it to the error handler.
+    template <class... Args>
+    void error(const FindingInfo& info, const Args&... args) {
+        tell(diagnostics_.report(info, where, args...));
+    }
+
+    // What a token means: an inline declaration ("uniform float Kd"), a declared name, or what the
+    // shader says. `name` is the token without a declaration. Null: not known.
+    std::optional<Declaration> resolve(Request request, std::string_view shader,
+                                       std::string_view token, std::string_view& name);
+
+    // Sends a call on; counts, and attribute blocks for them, are kept here. `vertices`: of
+    // requests that have their number of points from the caller alone.
+    void send(Request request, std::span<const Values> arguments, int n, RtToken tokens[],
+              RtPointer values[], uint32_t vertices = 0);
+
+    // Lights and objects: a handle's number, from 1; 0: it is none of ours.
+    RtPointer new_handle();
+    int handle_number(RtPointer handle) const;
+
+    const CountState& count_state() const { return counts_.back(); }
+    Declarations& declarations() { return declarations_; }
+    CallSink& sink() { return *sink_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    Location where;                    // of the request that is being read
+    RtErrorHandler handler = nullptr;  // null: findings are kept, no more
+
+  private:
+    void tell(const Finding& finding);
+    void follow_blocks(Request request, std::span<const Values> arguments);
+
+    std::unique_ptr<CallSink> sink_;
+    Diagnostics& diagnostics_;
+    Declarations declarations_;
+    std::deque<int> handles_;
+    std::vector<CountState> counts_;
+    std::vector<Parameter> parameters_;  // of the call being sent
+};
+
+}  // namespace kinora::ri
