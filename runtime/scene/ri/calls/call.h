@@ -44,7 +44,7 @@ class Values {
     Values(const char* value) : kind_(Kind::Strings), count_(1) {
         one_.string = value ? value : "";
     }
-    Values(void (*function)()) : kind_(Kind::Function), count_(1) { one_.function = function; }
+    Values(void (*callback)()) : kind_(Kind::Function), count_(1) { one_.function = callback; }
     Values(std::span<const int> values) : Values(Kind::Integers, values.data(), values.size()) {}
     Values(std::span<const float> values) : Values(Kind::Floats, values.data(), values.size()) {}
     Values(std::span<const char* const> values)

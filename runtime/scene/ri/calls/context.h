@@ -4,9 +4,10 @@
 
 #include <fmt/core.h>
 
-#include <deque>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
@@ -38,6 +39,9 @@ struct CountedCall {
 CountedCall count_values(Request request, std::span<const Values> arguments,
                          const CountState& state, uint32_t vertices);
 
+// The filter of ri.h that RIB calls "gaussian", ...; null: there is none of that name.
+RtFilterFunc filter_function(std::string_view name);
+
 // One begun by RiBegin, or by a reader of files. Used by one thread at a time.
 class Context {
   public:
@@ -65,7 +69,7 @@ class Context {
     void send(Request request, std::span<const Values> arguments, int n, RtToken tokens[],
               RtPointer values[], uint32_t vertices = 0);
 
-    // Lights and objects: a handle's number, from 1; 0: it is none of ours.
+    // Lights, objects and archives: a handle's number, from 1; 0: it is none of ours.
     RtPointer new_handle();
     int handle_number(RtPointer handle) const;
 
@@ -74,8 +78,9 @@ class Context {
     CallSink& sink() { return *sink_; }
     Diagnostics& diagnostics() { return diagnostics_; }
 
-    Location where;                    // of the request that is being read
-    RtErrorHandler handler = nullptr;  // null: findings are kept, no more
+    Location where;                                // of the request that is being read
+    RtErrorHandler handler = nullptr;              // null: findings are kept, no more
+    RtArchiveCallback archive_callback = nullptr;  // hears comments of the archive being read
 
   private:
     void tell(const Finding& finding);
@@ -84,9 +89,9 @@ class Context {
     std::unique_ptr<CallSink> sink_;
     Diagnostics& diagnostics_;
     Declarations declarations_;
-    std::deque<int> handles_;
+    int handles_ = 0;
     std::vector<CountState> counts_;
-    std::vector<Parameter> parameters_;  // of the call being sent
+    std::vector<Parameter> spare_parameters_;  // memory for the next call's
 };
 
 }  // namespace kinora::ri

@@ -1,0 +1,158 @@
+// runtime/scene/ri/calls/context.cpp: from a C call to a sink.
+#include "runtime/scene/ri/calls/context.h"
+
+#include <algorithm>
+
+#include "runtime/scene/description/findings.h"
+
+extern "C" {
+RtInt RiLastError = RIE_NOERROR;
+}
+
+namespace kinora::ri {
+namespace {
+
+thread_local Context* current_context = nullptr;
+
+struct ErrorRow {
+    std::string_view code;
+    int error;
+};
+constexpr ErrorRow kErrors[] = {
+    {"RI_NESTING", RIE_NESTING},         {"RI_OPTION_IN_WORLD", RIE_NOTOPTIONS},
+    {"RI_OUTSIDE_WORLD", RIE_NOTPRIMS},  {"RI_NOT_STARTED", RIE_NOTSTARTED},
+    {"RI_MOTION", RIE_BADMOTION},        {"RI_TOKEN_UNKNOWN", RIE_BADTOKEN},
+    {"RI_DECLARATION", RIE_SYNTAX},      {"RI_RANGE", RIE_RANGE},
+    {"RI_COUNTS", RIE_CONSISTENCY},      {"RI_HANDLE", RIE_BADHANDLE},
+    {"RI_SHADER_UNKNOWN", RIE_NOSHADER}, {"RI_DATA_MISSING", RIE_MISSINGDATA},
+    {"RI_NOT_DONE", RIE_UNIMPLEMENT},    {"RI_ARCHIVE", RIE_NOFILE},
+    {"RIB_SYNTAX", RIE_SYNTAX},          {"RIB_PARAMETER_LENGTH", RIE_CONSISTENCY},
+    {"RIB_TOKEN_UNKNOWN", RIE_BADTOKEN}, {"RIB_HANDLE", RIE_BADHANDLE},
+    {"RIB_GZIP", RIE_BADFILE},
+};
+
+int severity_code(Severity severity) {
+    switch (severity) {
+        case Severity::Error:
+            return RIE_ERROR;
+        case Severity::Warning:
+            return RIE_WARNING;
+        default:
+            return RIE_INFO;
+    }
+}
+
+// Values at the pointer of a C call: as many as the declaration and the counts ask.
+Values values_at(const void* pointer, const Declaration& declaration, size_t count) {
+    switch (declaration.type) {
+        case Type::Integer:
+            return Values(std::span(static_cast<const int*>(pointer), count));
+        case Type::String:
+            return Values(std::span(static_cast<const char* const*>(pointer), count));
+        default:
+            return Values(std::span(static_cast<const float*>(pointer), count));
+    }
+}
+
+bool saves_attributes(Request request) {
+    return request == Request::FrameBegin || request == Request::WorldBegin ||
+           request == Request::AttributeBegin || request == Request::SolidBegin ||
+           request == Request::ObjectBegin;
+}
+
+bool restores_attributes(Request request) {
+    return request == Request::FrameEnd || request == Request::WorldEnd ||
+           request == Request::AttributeEnd || request == Request::SolidEnd ||
+           request == Request::ObjectEnd;
+}
+
+}  // namespace
+
+ErrorCode error_code(const FindingInfo& finding) {
+    auto row = std::ranges::find(kErrors, std::string_view(finding.code), &ErrorRow::code);
+    return {row == std::end(kErrors) ? RIE_BUG : row->error, severity_code(finding.rendering)};
+}
+
+Context::Context(std::unique_ptr<CallSink> sink, Diagnostics& diagnostics)
+    : sink_(std::move(sink)), diagnostics_(diagnostics), counts_(1) {}
+
+Context::~Context() {
+    if (current_context == this) current_context = nullptr;
+}
+
+Context* Context::current() {
+    return current_context;
+}
+
+void Context::make_current(Context* context) {
+    current_context = context;
+}
+
+void Context::tell(const Finding& finding) {
+    ErrorCode told = error_code(*finding.info);
+    told.severity = severity_code(finding.severity);
+    RiLastError = told.code;
+    if (!handler) return;
+    std::string message = finding.message;
+    handler(told.code, told.severity, message.data());
+}
+
+std::optional<Declaration> Context::resolve(Request request, std::string_view shader,
+                                            std::string_view token, std::string_view& name) {
+    if (auto inline_one = parse_declaration(token, &name)) return inline_one;
+    name = token;
+    std::string scoped = fmt::format("{}:{}:{}", row(request).name, shader, token);
+    for (std::string_view known : {std::string_view(scoped), token}) {
+        if (const Declaration* found = declarations_.find(known)) return *found;
+        if (const Declaration* found = Declarations::standard().find(known)) return *found;
+    }
+    if (const Declaration* found = sink_->declared_by_shader(request, shader, token)) return *found;
+    return std::nullopt;
+}
+
+void Context::send(Request request, std::span<const Values> arguments, int n, RtToken tokens[],
+                   RtPointer values[], uint32_t vertices) {
+    CountedCall counted = count_values(request, arguments, counts_.back(), vertices);
+    if (!counted.why.empty()) return error(Code::RI_COUNTS, row(request).name, counted.why);
+    // A sink may read an archive during this call, which sends others.
+    std::vector<Parameter> parameters = std::move(spare_parameters_);
+    parameters.clear();
+    std::string_view shader = arguments.empty() ? "" : arguments[0].string();
+    for (int i = 0; i < n; ++i) {
+        if (!tokens[i] || !values[i]) continue;
+        std::string_view name;
+        auto declaration = resolve(request, shader, tokens[i], name);
+        if (!declaration) {
+            error(Code::RI_TOKEN_UNKNOWN, row(request).name, name);
+            continue;
+        }
+        size_t count = size_t(counted.counts.of(declaration->storage)) * declaration->elements() *
+                       components(declaration->type, count_state().color_samples);
+        parameters.push_back({name, *declaration, values_at(values[i], *declaration, count)});
+    }
+    follow_blocks(request, arguments);
+    sink_->call({request, arguments, parameters, counted.counts, where});
+    spare_parameters_ = std::move(parameters);
+}
+
+void Context::follow_blocks(Request request, std::span<const Values> arguments) {
+    if (saves_attributes(request)) counts_.push_back(counts_.back());
+    if (restores_attributes(request) && counts_.size() > 1) counts_.pop_back();
+    if (request == Request::Basis) {
+        counts_.back().ustep = arguments[1].integer();
+        counts_.back().vstep = arguments[3].integer();
+    }
+    if (request == Request::ColorSamples && arguments[0].size() % 3 == 0)
+        counts_.back().color_samples = std::max<uint32_t>(1, uint32_t(arguments[0].size() / 3));
+}
+
+RtPointer Context::new_handle() {
+    return reinterpret_cast<RtPointer>(uintptr_t(++handles_));
+}
+
+int Context::handle_number(RtPointer handle) const {
+    auto number = reinterpret_cast<uintptr_t>(handle);
+    return number <= uintptr_t(handles_) ? int(number) : 0;
+}
+
+}  // namespace kinora::ri
