@@ -11,6 +11,7 @@
 #include <string>
 
 #include "collada/text/number_reading_p.h"
+#include "collada/text/number_run.h"
 #include "collada/text/numbers_p.h"
 
 namespace kinora::collada {
@@ -171,7 +172,66 @@ std::vector<T> scan_list(std::string_view text, size_t expected, NumberFaults& f
     return values;
 }
 
+// Digits, or a sign or point before them.
+bool begins_number(const char* p, const char* end) {
+    auto is_digit = [&](const char* at) { return at < end && *at >= '0' && *at <= '9'; };
+    if (p < end && (*p == '-' || *p == '+')) ++p;
+    return is_digit(p) || (p < end && *p == '.' && is_digit(p + 1));
+}
+
+// A number of any form that a run has; null: the run ends here.
+const char* scan_word(const char* p, const char* end, float& value) {
+    double number = 0;
+    const char* stop = scan_number(p, end, number);
+    value = float(number);
+    return stop && std::isfinite(number) ? stop : nullptr;
+}
+const char* scan_word(const char* p, const char* end, int32_t& value) {
+    if (p < end && *p == '+') ++p;
+    auto [stop, error] = std::from_chars(p, end, value);
+    bool longer = stop < end && (*stop == '.' || *stop == 'e' || *stop == 'E');
+    return error == std::errc{} && !longer ? stop : nullptr;
+}
+
+// As scan_list(), where what is no number ends the list.
+template <class T, class Short>
+const char* append_run(const char* begin, const char* p, const char* end, std::vector<T>& values) {
+    constexpr std::ptrdiff_t kPiece = 1024;
+    Short piece[(kPiece + kScanReach) / 2 + 1];
+    while (true) {
+        Short* out = piece;
+        p = std::min(read_short(begin, p, p + std::min(end - p, kPiece + kScanReach), out), end);
+        values.insert(values.end(), piece, out);
+        if (out - piece > kPiece / 32) continue;  // most of the piece
+        while (p < end && is_number_space(*p)) ++p;
+        T value;
+        const char* stop = begins_number(p, end) ? scan_word(p, end, value) : nullptr;
+        if (!stop) return p;
+        values.push_back(value);
+        p = stop;
+    }
+}
+
 }  // namespace
+
+const char* append_floats(const char* begin, const char* p, const char* end,
+                          std::vector<float>& values) {
+    return append_run<float, double>(begin, p, end, values);
+}
+
+const char* append_ints(const char* begin, const char* p, const char* end,
+                        std::vector<int32_t>& values) {
+    return append_run<int32_t, int32_t>(begin, p, end, values);
+}
+
+const char* scan_number(const char* p, const char* end, double& value) {
+    if (!begins_number(p, end)) return nullptr;
+    p += *p == '+';
+    auto [stop, error] = fast_float::from_chars(p, end, value);
+    if (stop == p) return nullptr;
+    if (error != std::errc{}) exact_double({p, size_t(stop - p)}, value);
+    return stop;
+}
 
 bool comma_decimal(std::string_view word, double& value) {
     size_t comma = word.find(',');

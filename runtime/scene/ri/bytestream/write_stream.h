@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -11,18 +14,27 @@ namespace kinora::ri {
 
 enum class StreamForm : uint8_t { Ascii, Binary };
 
+// The words of a stream in one form.
+class StreamWords;
+
 // Writes each call as a request, so that reading it gives the same call: numbers with all their
 // digits, undeclared tokens with inline declarations. Blocks indent ASCII.
 class StreamWriter : public CallSink {
   public:
     using Write = std::function<void(std::string_view bytes)>;
     StreamWriter(StreamForm form, Write write);
+    ~StreamWriter() override;
     void call(const Call& call) override;
 
   private:
-    StreamForm form_;
+    void add_argument(char letter, const Values& values);
+    void add_arguments(const Call& call);
+    std::string token(const Parameter& parameter) const;
+
+    std::unique_ptr<StreamWords> words_;
     Write write_;
     int depth_ = 0;
+    std::set<std::string, std::less<>> redeclared_;  // names that Declare has given a meaning
 };
 
 }  // namespace kinora::ri

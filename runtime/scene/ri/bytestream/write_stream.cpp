@@ -1,0 +1,151 @@
+// runtime/scene/ri/bytestream/write_stream.cpp: calls to RIB.
+#include "runtime/scene/ri/bytestream/write_stream.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/scene/ri/bytestream/stream_words_p.h"
+#include "runtime/scene/ri/calls/ri.h"
+
+namespace kinora::ri {
+namespace {
+
+constexpr std::string_view kHeading = "##RenderMan RIB-Structure 1.1\nversion 3.03\n";
+
+struct BasisName {
+    const RtBasis& basis;
+    std::string_view name;
+};
+const BasisName kBasisNames[] = {
+    {RiBezierBasis, "bezier"},   {RiBSplineBasis, "b-spline"}, {RiCatmullRomBasis, "catmull-rom"},
+    {RiHermiteBasis, "hermite"}, {RiPowerBasis, "power"},
+};
+
+std::string_view basis_name(std::span<const float> matrix) {
+    for (const BasisName& row : kBasisNames)
+        if (matrix.size_bytes() == sizeof row.basis &&
+            std::memcmp(matrix.data(), row.basis, sizeof row.basis) == 0)
+            return row.name;
+    return "";
+}
+
+bool opens(Request request) {
+    return row(request).name.ends_with("Begin");
+}
+bool closes(Request request) {
+    return row(request).name.ends_with("End");
+}
+// Between the parts of a condition.
+bool parts(Request request) {
+    return request == Request::Else || request == Request::ElseIf;
+}
+
+// What stands between brackets, or alone.
+void add_values(StreamWords& words, const Values& values) {
+    switch (values.kind()) {
+        case Values::Kind::Integers:
+            words.add_array(values.integers());
+            break;
+        case Values::Kind::Floats:
+            words.add(values.floats());
+            break;
+        case Values::Kind::Strings: {
+            std::vector<std::string_view> strings;
+            for (const char* text : values.strings()) strings.push_back(text ? text : "");
+            words.add_array(std::span<const std::string_view>(strings));
+            break;
+        }
+        case Values::Kind::Function:
+            break;
+    }
+}
+
+// Comments, structure hints, and lines that are as they should be written.
+std::string record(std::string_view type, std::string_view text) {
+    std::string mark = type == "verbatim" ? "" : type == "structure" ? "##" : "#";
+    std::string written = mark;
+    for (char c : text) {
+        written += c;
+        if (c == '\n') written += mark;
+    }
+    return written + '\n';
+}
+
+}  // namespace
+
+StreamWriter::StreamWriter(StreamForm form, Write write)
+    : words_(form == StreamForm::Ascii ? ascii_words() : binary_words()), write_(std::move(write)) {
+    words_->text = kHeading;
+}
+
+StreamWriter::~StreamWriter() = default;
+
+// Names of the interface stand alone, unless the stream gives them another meaning.
+std::string StreamWriter::token(const Parameter& parameter) const {
+    const Declaration* standard = Declarations::standard().find(parameter.name);
+    bool known =
+        standard && *standard == parameter.declaration && !redeclared_.contains(parameter.name);
+    // An inline declaration has no room for blanks in a name; it was declared before.
+    bool blank = parameter.name.find(' ') != std::string_view::npos || parameter.name.empty();
+    if (known || blank) return std::string(parameter.name);
+    return declaration_text(parameter.declaration) + ' ' + std::string(parameter.name);
+}
+
+void StreamWriter::add_argument(char letter, const Values& values) {
+    StreamWords& words = *words_;
+    if (letter == 'x') {
+        std::string_view name = basis_name(values.floats());
+        return name.empty() ? words.add(values.floats()) : words.add(name);
+    }
+    if (values.is_array()) return add_values(words, values);
+    switch (values.kind()) {
+        case Values::Kind::Integers:
+            return words.add(values.integer());
+        case Values::Kind::Floats:
+            return words.add(values.real());
+        case Values::Kind::Strings:
+            return words.add(values.string());
+        // A program's own filter, which RIB has no name for.
+        case Values::Kind::Function:
+            return words.add(std::string_view("gaussian"));
+    }
+}
+
+void StreamWriter::add_arguments(const Call& call) {
+    std::string_view letters = row(call.request).arguments;
+    size_t optional = std::min(letters.find('?'), letters.size()), at = 0;
+    auto empty = [](const Values& values) { return values.size() == 0; };
+    bool short_form = optional < call.arguments.size() &&
+                      std::ranges::all_of(call.arguments.subspan(optional), empty);
+    for (char letter : letters) {
+        if (letter == '?' && short_form) break;
+        if (letter == '?') continue;
+        if (letter == '*' || at == call.arguments.size()) break;
+        add_argument(letter, call.arguments[at++]);
+    }
+}
+
+void StreamWriter::call(const Call& call) {
+    StreamWords& words = *words_;
+    if (call.request == Request::ArchiveRecord) {
+        words.text += record(call.arguments[0].string(), call.arguments[1].string());
+    } else {
+        if (closes(call.request) || parts(call.request)) depth_ = std::max(depth_ - 1, 0);
+        words.begin_request(call.request, depth_);
+        add_arguments(call);
+        for (const Parameter& parameter : call.parameters) {
+            words.add_token(token(parameter));
+            add_values(words, parameter.values);
+        }
+        words.end_request();
+        if (opens(call.request) || parts(call.request)) ++depth_;
+    }
+    if (call.request == Request::Declare) {
+        std::string_view name = call.arguments[0].string();
+        redeclared_.emplace(name.substr(name.rfind(':') + 1));  // npos + 1 is 0
+    }
+    write_(words.text);
+    words.text.clear();
+}
+
+}  // namespace kinora::ri
