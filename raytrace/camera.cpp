@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -23,7 +24,15 @@ double half_side(const CameraOptics& optics, double value) {
     return optics.orthographic ? value : std::tan(0.5 * value);
 }
 
+CameraStatus check_window(const std::array<double, 4>& window) {
+    for (double side : window)
+        if (!std::isfinite(side)) return CameraStatus::BadWindow;
+    bool area = window[0] != window[1] && window[2] != window[3];
+    return area ? CameraStatus::Ok : CameraStatus::BadWindow;
+}
+
 CameraStatus check_optics(const CameraOptics& optics) {
+    if (optics.window) return check_window(*optics.window);
     if (!optics.x && !optics.y) return CameraStatus::FieldOfViewOutOfRange;
     for (const std::optional<double>& side : {optics.x, optics.y}) {
         if (!side) continue;
@@ -40,6 +49,15 @@ CameraStatus check_optics(const CameraOptics& optics) {
 // COLLADA 1.4.1, <perspective>: x, y, or one of them with aspect_ratio; with all three, x and y
 // win. One side alone is kept, two are fitted inside the picture.
 void fit_window(const CameraOptics& optics, double picture_aspect, Camera& out) {
+    if (optics.window) {
+        const std::array<double, 4>& window = *optics.window;
+        dvec2 low(window[0], window[2]), high(window[1], window[3]);
+        out.sign = glm::sign(high - low);
+        out.middle = 0.5 * (low + high);
+        out.half_width = 0.5 * std::abs(high.x - low.x);
+        out.half_height = 0.5 * std::abs(high.y - low.y);
+        return;
+    }
     std::optional<double> w, h;
     if (optics.x) w = half_side(optics, *optics.x);
     if (optics.y) h = half_side(optics, *optics.y);
@@ -112,8 +130,12 @@ CameraStatus make_camera(const CameraOptics& optics, const dmat4& world_from_nod
     const dvec3 eye_world{world_from_node[3]};
     camera.eye = eye_world - scene_origin;
     set_matrices(eye_world, camera);
-    camera.raster_dx = camera.right * (2 * camera.half_width / camera.width);
-    camera.raster_dy = camera.up * (-2 * camera.half_height / camera.height);  // y goes down
+    const double dx = camera.sign.x * (2 * camera.half_width / camera.width);
+    const double dy = camera.sign.y * (-2 * camera.half_height / camera.height);  // y goes down
+    camera.raster_dx = camera.right * dx;
+    camera.raster_dy = camera.up * dy;
+    camera.axis = {0.5 * camera.width - camera.middle.x / dx,
+                   0.5 * camera.height - camera.middle.y / dy};
     camera.znear = optics.znear;
     camera.zfar = optics.zfar;
     bool repaired = repair_clip_range(scene_size, camera);
@@ -123,6 +145,8 @@ CameraStatus make_camera(const CameraOptics& optics, const dmat4& world_from_nod
 
 std::optional<double> picture_aspect(const CameraOptics& optics) {
     if (is_error(check_optics(optics))) return {};
+    if (const auto& window = optics.window)
+        return std::abs(((*window)[1] - (*window)[0]) / ((*window)[3] - (*window)[2]));
     if (optics.x && optics.y) return half_side(optics, *optics.x) / half_side(optics, *optics.y);
     return optics.aspect;
 }
@@ -130,7 +154,7 @@ std::optional<double> picture_aspect(const CameraOptics& optics) {
 CameraRay camera_ray(const Camera& camera, double x, double y) {
     const dvec3& dx = camera.raster_dx;
     const dvec3& dy = camera.raster_dy;
-    const dvec3 across = dx * (x - 0.5 * camera.width) + dy * (y - 0.5 * camera.height);
+    const dvec3 across = dx * (x - camera.axis.x) + dy * (y - camera.axis.y);
     CameraRay ray{};
     double per_depth = 1;  // length along the ray for one unit of depth
     if (camera.orthographic) {

@@ -1,6 +1,7 @@
 // raytrace/camera.h: COLLADA cameras: from optics and a picture's size to rays.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -15,6 +16,9 @@ struct CameraOptics {
     std::optional<double> x;       // xfov or xmag
     std::optional<double> y;       // yfov or ymag
     std::optional<double> aspect;  // width / height
+    // Instead of all three, what the whole picture spans: left, right, bottom, top, at distance 1
+    // or in world units. Left above right, or bottom above top, is a mirrored picture.
+    std::optional<std::array<double, 4>> window;
     double znear = 0;
     double zfar = 0;
 };
@@ -26,6 +30,7 @@ enum class CameraStatus : uint8_t {
     AspectNotPositive,         // error
     BadMatrix,                 // error: not finite, or its axes do not span space
     BadPicture,                // error: width or height < 1
+    BadWindow,                 // error: no area, or not finite
     ClipRangeRepaired,         // warning: znear <= 0 or znear >= zfar; see Camera::znear
 };
 constexpr bool is_error(CameraStatus s) {
@@ -43,6 +48,9 @@ struct Camera {
     dvec3 forward{0, 0, 1};
     double half_width = 1;  // of the picture: at distance 1 (perspective) or in world units
     double half_height = 1;
+    dvec2 middle{0.0};  // of the picture, likewise: where the camera looks unless it has a window
+    dvec2 axis{0.0};    // where the camera looks, pixels from the top left corner
+    dvec2 sign{1.0};    // -1: the picture is mirrored along that axis
     dvec3 raster_dx{0.0};  // from one pixel to the next in that picture, and to the one below
     dvec3 raster_dy{0.0};
     double znear = 0;  // 0 < znear < zfar always; what the shaders see. Rays are not clipped

@@ -66,8 +66,8 @@ PixelView pixel_view(const Camera& camera, bool spreads) {
     view.clip = camera.clip;
     view.znear = camera.znear;
     view.zfar = camera.zfar;
-    view.centre_x = 0.5 * camera.width;
-    view.centre_y = 0.5 * camera.height;
+    view.centre_x = camera.axis.x;
+    view.centre_y = camera.axis.y;
     for (int c = 0; c < 3; ++c) {
         view.eye[c] = camera.eye[c];
         view.forward[c] = camera.forward[c];

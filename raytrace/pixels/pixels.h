@@ -31,7 +31,7 @@ struct PixelView {
     double eye[3], forward[3];
     double dx[3], dy[3];          // from one pixel to the next, and to the one below
     double dx_square, dy_square;  // their squared lengths
-    double centre_x, centre_y;    // of the picture, pixels
+    double centre_x, centre_y;    // where it looks, pixels
 };
 
 // The pixels of a tile in the order of their rays.

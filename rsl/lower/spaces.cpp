@@ -29,7 +29,7 @@ Space Spaces::space(Value name, Location where) {
     std::string meant = text ? meant_space(*text, where) : "";
     if (text) text = &meant;
     if (!context_.bends_normals()) return kernel_space(name, text);
-    if (text && contains(kOfObject, meant)) return {};
+    if (text && contains(kOfObject, meant) && !has_own_space(meant)) return {};
     Space object = input_space("object"), other = kernel_space(name, text);
     if (other.identity) return {false, object.from_current, object.to_current};
     return {false, multiply(e_, other.to_current, object.from_current),
@@ -47,8 +47,14 @@ std::string Spaces::meant_space(const std::string& name, Location where) {
     return "shader";
 }
 
+// "shader", where that is not the object's.
+bool Spaces::has_own_space(std::string_view name) const {
+    return name == "shader" && !context_.layer->space.empty();
+}
+
 Space Spaces::kernel_space(Value name, const std::string* meant) {
     if (!meant) return variable_space(name);
+    if (has_own_space(*meant)) return input_space(context_.layer->space);
     if (*meant == "current" || (*meant == "camera" && !context_.options.of_vertices)) return {};
     return input_space(*meant);
 }

@@ -30,6 +30,7 @@ class Spaces {
 
   private:
     // What a written name means: one that nobody knows is "shader", which is said once.
+    bool has_own_space(std::string_view name) const;
     std::string meant_space(const std::string& name, Location where);
     Space kernel_space(Value name, const std::string* meant);  // in terms of the kernel's current
     Space input_space(const std::string& name);

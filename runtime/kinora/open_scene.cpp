@@ -18,6 +18,7 @@
 #include "runtime/scene/load/import_scene.h"
 #include "runtime/scene/load/override_scene.h"
 #include "runtime/scene/load/override_shader.h"
+#include "runtime/scene/ri/import/import.h"
 
 namespace kinora {
 
@@ -39,7 +40,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.target = request.target;
     o.lights = request.lights;
     o.background_rebuilds = false;  // a frame depends on its time alone
-    o.decode_textures = request.color == ColorEncoding::Srgb;
+    o.decode_textures = encoding_of(request) == ColorEncoding::Srgb;
     o.aovs = request.aovs;
     o.print = request.print;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
@@ -59,7 +60,8 @@ ImportOptions import_options(const SceneRequest& request) {
     import.vertex_colors = request.vertex_colors;
     import.ignore_required = request.ignore_required;
     import.smooth = request.smooth;
-    import.decode_colors = request.color == ColorEncoding::Srgb;
+    import.decode_colors = encoding_of(request) == ColorEncoding::Srgb;
+    import.world = request.world;
     import.include_directories = request.include_directories;
     return import;
 }
@@ -171,15 +173,54 @@ void set_sampling(raytrace::IntegratorSettings& settings, const Quality& quality
     settings.filter = &raytrace::pixel_filters()[size_t(quality.filter)];
 }
 
+namespace {
+
+// What the interface's filters are here. Those with lobes below 0, which no sample can have, are
+// the nearest that has none.
+struct FileFilter {
+    std::string_view name, ours;
+    double width;  // of ours, a part of its own
+};
+constexpr FileFilter kFileFilters[] = {
+    {"box", "box", 1},
+    {"triangle", "triangle", 1},
+    {"gaussian", "gaussian", 1},
+    {"mitchell", "gaussian", 0.5},
+    {"catmull-rom", "triangle", 0.5},
+    {"sinc", "box", 0.25},
+    {"bessel", "gaussian", 0.5},
+    {"disk", "box", 0.886},
+};
+
+void sample_as(const FilePicture& own, raytrace::IntegratorSettings& settings) {
+    if (own.samples) settings.samples_per_pixel = own.samples;
+    for (const FileFilter& filter : kFileFilters)
+        if (filter.name == own.filter) {
+            settings.filter = raytrace::find_pixel_filter(filter.ours);
+            settings.filter_width = own.filter_width * filter.width;
+        }
+}
+
+}  // namespace
+
+ColorEncoding encoding_of(const SceneRequest& request) {
+    if (request.color) return *request.color;
+    return is_rib(request.scene) ? ColorEncoding::Linear : ColorEncoding::Srgb;
+}
+
 FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Pose& pose,
                              Diagnostics& diagnostics, const std::atomic<int>* stop) {
     FrameSettings settings;
     double aspect = camera_aspect(scene).value_or(16.0 / 9.0);
-    double width = request.width ? request.width : 640;
+    const std::optional<FilePicture>& own = scene.description->file_picture;
+    bool as_file = own && !request.width && !request.height;
+    double width = as_file ? own->width : request.width ? request.width : 640;
+    double height = as_file ? own->height : request.height ? request.height : width / aspect;
     settings.width = scaled(request, width);
-    settings.height = scaled(request, request.height ? request.height : width / aspect);
+    settings.height = scaled(request, height);
     set_sampling(settings.integrator, request.quality);
     settings.integrator.filter_width = request.filter_width;
+    if (own && !request.fixed_settings) sample_as(*own, settings.integrator);
     settings.integrator.background = request.background;
     settings.integrator.nan = request.nan;
     settings.stop = stop;
@@ -188,7 +229,8 @@ FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Po
         stops = auto_exposure(scene, pose, settings, diagnostics);
         diagnostics.report(Code::EXPOSURE_AUTO, Location{}, stops);
     }
-    settings.gain = std::exp2(stops);
+    settings.gain = std::exp2(stops) * (own ? own->gain : 1);
+    settings.gamma = own ? own->gamma : 1;
     return settings;
 }
 

@@ -30,9 +30,10 @@ struct SceneRequest {
     std::string look_at;  // X,Y,Z or a node; "": nothing
     int threads = 0;      // 0: all
     const jit::Target* target = nullptr;
-    std::string target_missing;  // asked for, not on this CPU
-    Quality quality;             // a preset with single options put over it
-    size_t dice_limit = 0;       // 0: the scene's own
+    std::string target_missing;   // asked for, not on this CPU
+    Quality quality;              // a preset with single options put over it
+    bool fixed_settings = false;  // quality was asked for: not what a file says of samples
+    size_t dice_limit = 0;        // 0: the scene's own
     double filter_width = 0;
     uint32_t seed = 0;
     LightSet lights = LightSet::Auto;
@@ -40,12 +41,13 @@ struct SceneRequest {
     bool auto_exposure = false;
     std::optional<vec3> background;
     raytrace::NanPolicy nan = raytrace::NanPolicy::Zero;
-    ColorEncoding color = ColorEncoding::Srgb;
+    std::optional<ColorEncoding> color;                        // nothing: encoding_of()
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL or LIGHT, SHADER
     std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
     std::vector<std::string> hide, only;                       // nodes
     std::string imager;             // one of ours by name, FILE.sl, "none"; "": the scene's own
     std::string atmosphere;         // likewise
+    int world = -1;                 // of the pictures in a RIB file; -1: the last
     std::vector<std::string> aovs;  // output parameters of surfaces
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
@@ -63,5 +65,8 @@ struct SceneRequest {
 
     Judgement judgement() const { return strict ? Judgement::Strict : Judgement::Rendering; }
 };
+
+// What --color says, else by the scene's format: RIB's pictures have no curve.
+ColorEncoding encoding_of(const SceneRequest& request);
 
 }  // namespace kinora

@@ -385,7 +385,7 @@ DisplaySettings PlayerCore::display_settings() const {
     display.tone = state.picture.tone;
     display.aov = state.picture.aov;
     display.false_color = state.picture.false_color;
-    display.encoding = request.color;
+    display.encoding = encoding_of(request);
     display.kept = kept;
     display.wipe_at = state.picture.wipe_at;
     if (state.picture.rays) display.rays = state.selection.story;

@@ -26,6 +26,7 @@ raytrace::CameraOptics optics_of(const Scene& scene, const Pose& pose) {
     double unit = unit_of(path_conversion(scene, scene.cameras[pose.camera].node));
     if (camera.orthographic && optics.x) *optics.x *= unit;
     if (camera.orthographic && optics.y) *optics.y *= unit;
+    optics.window = camera.window;
     optics.znear = value(camera.znear).value_or(0.0);
     optics.zfar = value(camera.zfar).value_or(0.0);
     if (!camera.orthographic) {

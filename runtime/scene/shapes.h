@@ -85,6 +85,7 @@ struct Surface {
         kNone;  // volumes inside and around, into Scene::shader_instances; kNone: none
     uint32_t exterior = kNone;
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none
+    const VertexAttribute* uv = nullptr;  // u and v, where they are not s and t
     // Vertex inputs of the instance's varying parameters, in the order of ShaderInstance::varying.
     std::vector<const VertexAttribute*> varying;
     VertexUse transformation, displacement;

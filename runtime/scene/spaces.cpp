@@ -33,9 +33,9 @@ dmat4 screen_from_camera(const raytrace::Camera& view) {
 dmat4 ndc_from_screen(const raytrace::Camera& view) {
     double shorter = std::min(view.half_width, view.half_height);
     dmat4 m(1.0);
-    m[0][0] = 0.5 * shorter / view.half_width;
-    m[1][1] = -0.5 * shorter / view.half_height;
-    m[3] = dvec4(0.5, 0.5, 0, 1);
+    m[0][0] = view.sign.x * 0.5 * shorter / view.half_width;
+    m[1][1] = view.sign.y * -0.5 * shorter / view.half_height;
+    m[3] = dvec4(view.axis.x / view.width, view.axis.y / view.height, 0, 1);
     return m;
 }
 
@@ -52,7 +52,7 @@ dmat4 current_from_space(const Scene& scene, const Pose& pose, std::string_view 
                          SpaceOwner owner) {
     const raytrace::Camera& view = pose.view;
     if (name == "current" || name == "camera") return dmat4(1.0);
-    if (name == "world") return view.camera_from_world;
+    if (name == "world") return view.camera_from_world * scene.description->world_space;
     if (name == "shader" || name == "object") return current_from_owner(pose, owner);
     dmat4 screen = screen_from_camera(view);
     if (name == "screen") return glm::inverse(screen);
@@ -75,7 +75,7 @@ dmat4 object_from_space(const Scene& scene, const Pose& pose, std::string_view n
                         uint32_t object) {
     if (name == "current" || name == "object" || name == "shader") return dmat4(1.0);
     dmat4 object_from_world = glm::inverse(pose.nodes[object].world);
-    if (name == "world") return object_from_world;
+    if (name == "world") return object_from_world * scene.description->world_space;
     return object_from_world * pose.view.world_from_camera *
            current_from_space(scene, pose, name, object);
 }

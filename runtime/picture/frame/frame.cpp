@@ -76,6 +76,11 @@ bool trace_film(Pose& pose, const FrameSettings& settings, raytrace::Film& film,
     StageScope stage(Stage::Film);
     if (gain != 1)
         for (vec4& pixel : film.rgba) pixel = vec4(vec3(pixel) * gain, pixel.w);
+    if (settings.gamma != 1) {
+        const vec3 power(float(1 / settings.gamma));
+        for (vec4& pixel : film.rgba)
+            pixel = vec4(glm::pow(glm::max(vec3(pixel), vec3(0)), power), pixel.w);
+    }
     return whole;
 }
 

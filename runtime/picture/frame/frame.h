@@ -42,6 +42,7 @@ struct FrameSettings {
     double shutter = 0;                      // seconds
     double most_dice_error = 0;              // 0: any
     double gain = 1;                         // of the picture's colours: 2 ^ exposure
+    double gamma = 1;                        // colours, when multiplied, to the power 1 / gamma
     const std::atomic<int>* stop = nullptr;  // not 0: the frame is let go at the next rays
     const PlacedCamera* camera = nullptr;    // instead of the scene's
     ShadingInsight insight = {};             // its costs are started by the frame

@@ -29,6 +29,8 @@ const char* status_text(raytrace::CameraStatus status) {
             return "its node's matrix has no three axes";
         case raytrace::CameraStatus::BadPicture:
             return "the picture must have at least one pixel";
+        case raytrace::CameraStatus::BadWindow:
+            return "its window has no area";
         case raytrace::CameraStatus::Ok:
         case raytrace::CameraStatus::ClipRangeRepaired:
             break;

@@ -90,6 +90,7 @@ class HitSource : public PointSource {
         footprint_ = column(kColDu) || column(kColDv);
         partials_ = dPdu_ || dPdv_ || dIdu_ || dIdv_ || footprint_;
         uv_ = column(kColU) || column(kColV) || column(kColS) || column(kColT);
+        uv_ |= column(kColdsdu) || column(kColdsdv) || column(kColdtdu) || column(kColdtdv);
         parameters_ = uv_ || partials_ || dNdu_ || dNdv_ || !grid.look->varying.empty();
         matrices_ = std::any_of(grid.columns.begin() + kColToCurrent,
                                 grid.columns.begin() + kColVarying, [](float* c) { return c; });
@@ -301,6 +302,7 @@ class HitSource : public PointSource {
         }
         TwoRows st, uv;
         find_parameters(block, st, uv);
+        if (surface_->uv) texture_coordinates(block, first, count, st);
         put(kColU, first, count, uv.at[0]);
         put(kColV, first, count, uv.at[1]);
         put(kColS, first, count, st.at[0]);
@@ -330,8 +332,21 @@ class HitSource : public PointSource {
                 x.at[k][i] = values[size_t(a.corners[block.corner[i] + k]) * a.stride];
         return x;
     }
-    void find_parameters(Block& block, TwoRows& st, TwoRows& uv) const {
+    // Of a surface with parameters of its own: s and t at the points, and how they change along u
+    // and v.
+    void texture_coordinates(const Block& block, size_t first, size_t count, TwoRows& st) const {
         const VertexAttribute* a = surface_->st;
+        if (!a || a->stride < 2) return;
+        constexpr size_t kAlong[2][2] = {{kColdsdu, kColdsdv}, {kColdtdu, kColdtdv}};
+        for (uint32_t k = 0; k < 2; ++k) {
+            TwoRows along;
+            kernels_.mix(block.on, of_attribute(block, *a, k), st.at[k], along);
+            put(kAlong[k][0], first, count, along.at[0]);
+            put(kAlong[k][1], first, count, along.at[1]);
+        }
+    }
+    void find_parameters(Block& block, TwoRows& st, TwoRows& uv) const {
+        const VertexAttribute* a = surface_->uv ? surface_->uv : surface_->st;
         if (a && a->stride >= 2)
             return kernels_.find_parameters(block.on, of_attribute(block, *a, 0),
                                             of_attribute(block, *a, 1), st, uv);

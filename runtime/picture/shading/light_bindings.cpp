@@ -97,13 +97,21 @@ bool asks_for(const rsl::LoweredShader& surface, const rsl::LoweredShader& light
     return (ambient && surface.lit_by_ambient) || (directed && (surface.lit_by_all || named));
 }
 
+// Light on geometry reaches all surfaces.
+bool is_lit_by(const ShaderInstance& surface, const LightSource& light) {
+    return !surface.lights || light.surface != kNone ||
+           std::ranges::binary_search(*surface.lights, light.definition);
+}
+
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.
-LightBinding binding_of(const ShaderInstance& surface, const ShaderInstance& light) {
+LightBinding binding_of(const ShaderInstance& surface, const LightSource& source,
+                        const ShaderInstance& light) {
     LightBinding binding;
     std::string own = categories_of(light);
     for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
         binding.categories |= int32_t(has_category(own, surface.lowered.categories[c])) << c;
-    binding.seen = asks_for(surface.lowered, light.lowered, uint32_t(binding.categories));
+    binding.seen = asks_for(surface.lowered, light.lowered, uint32_t(binding.categories)) &&
+                   is_lit_by(surface, source);
     binding.nondiffuse = number_of(light, "__nondiffuse");
     binding.nonspecular = number_of(light, "__nonspecular");
     const jit::Kernel& kernel = light.full.kernel();
@@ -193,7 +201,8 @@ LightBindings::LightBindings(const Scene& scene) {
         auto& row = bindings_.emplace_back();
         if (look->kind == ShaderInstanceKind::Light) continue;
         for (size_t l = 0; l < scene.lights.size(); ++l) {
-            row.push_back(binding_of(*look, *scene.shader_instances[scene.lights[l].look]));
+            const LightSource& light = scene.lights[l];
+            row.push_back(binding_of(*look, light, *scene.shader_instances[light.look]));
             row.back().light = int32_t(l);
         }
     }

@@ -157,7 +157,7 @@ void History::keep(const Pose& pose, const Planes& planes) {
              camera.forward,
              camera.raster_dx / glm::dot(camera.raster_dx, camera.raster_dx),
              camera.raster_dy / glm::dot(camera.raster_dy, camera.raster_dy),
-             0.5 * dvec2(camera.width, camera.height) - 0.5,
+             camera.axis - 0.5,
              camera.orthographic};
     keep_places(pose);
     known_ = true;

@@ -193,6 +193,7 @@ raytrace::Camera camera_of(const Pose& pose, int width, int height) {
     raytrace::Camera camera = pose.view;
     camera.raster_dx *= double(camera.width) / width;
     camera.raster_dy *= double(camera.height) / height;
+    camera.axis *= dvec2(width, height) / dvec2(camera.width, camera.height);
     camera.width = width;
     camera.height = height;
     return camera;

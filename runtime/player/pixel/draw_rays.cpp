@@ -117,8 +117,8 @@ std::optional<std::pair<dvec2, dvec2>> seen_segment(const raytrace::Camera& came
     auto pixel = [&](dvec3 p) {
         if (!camera.orthographic) p /= glm::dot(p, camera.forward);
         const dvec3 &dx = camera.raster_dx, &dy = camera.raster_dy;
-        return dvec2(0.5 * camera.width + glm::dot(p, dx) / glm::dot(dx, dx),
-                     0.5 * camera.height + glm::dot(p, dy) / glm::dot(dy, dy));
+        return dvec2(camera.axis.x + glm::dot(p, dx) / glm::dot(dx, dx),
+                     camera.axis.y + glm::dot(p, dy) / glm::dot(dy, dy));
     };
     return std::pair(pixel(a), pixel(b));
 }

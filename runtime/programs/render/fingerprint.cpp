@@ -66,7 +66,7 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
         "kinora {} {} {:016x} {}x{} {} {} filter width {} seed {} nan {} color {} camera {} up {} "
         "unit {} dice limit {} time {:a}",
         KINORA_VERSION, build_id(), inputs, width, height, o.quality.name, knob_texts(o.quality),
-        o.filter_width, o.seed, int(o.nan), int(o.color), o.camera,
+        o.filter_width, o.seed, int(o.nan), int(encoding_of(o)), o.camera,
         o.up_axis ? int(*o.up_axis) : -1, o.meter.value_or(0), o.dice_limit, time);
     text += fmt::format(" exposure {} {}", o.auto_exposure, o.exposure);
     if (o.background)

@@ -248,7 +248,7 @@ bool Render::keep_existing(const std::string& file, const std::string& print) {
     if (read_image_text(file, "kinora/fingerprint") != print) return false;
     if (!has_intact_pixels(file)) return false;
     if (options_.contact_sheet.empty()) return true;
-    std::optional<Image8> image = read_image(file, options_.color);
+    std::optional<Image8> image = read_image(file, encoding_of(options_));
     if (image) sheet_.add(*image);
     return image.has_value();
 }
@@ -281,7 +281,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     ptrdiff_t unwritten = unwritable();
     WrittenFrame to_write{.record = number,
                           .file = record.file,
-                          .color = options_.color,
+                          .color = encoding_of(options_),
                           .depth = options_.quality.depth,
                           .texts = {{"Software", "kinora " KINORA_VERSION},
                                     {"kinora/fingerprint", print},
@@ -309,7 +309,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
         if (thread_count() == 1) end_write();
     } else {
         Stopwatch watch;
-        if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, options_.color));
+        if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(film_, encoding_of(options_)));
         record.write_ms += watch.ms();
         record.state = FrameState::Done;
         progress_.frame_done(frame, index, record.file, record.stats.total + record.write_ms);
@@ -335,7 +335,8 @@ void Render::end_write() {
         codes_.go_on_after(report_unwritable(written->file, written->error, written->number));
     } else {
         Stopwatch watch;
-        if (!options_.contact_sheet.empty()) sheet_.add(to_8_bit(written->film, options_.color));
+        if (!options_.contact_sheet.empty())
+            sheet_.add(to_8_bit(written->film, encoding_of(options_)));
         record.write_ms = written->ms + watch.ms();
         if (record.state == FrameState::Aborted) record.state = FrameState::Done;
         progress_.frame_done(record.frame, record.index, record.file,

@@ -26,9 +26,8 @@ struct RenderOptions : SceneRequest {
     std::string tradeoff;  // folder
     double budget = 120;   // seconds
     std::vector<std::string> asserts;
-    FrameTarget frame_target;     // what samples and settings are chosen by
-    std::string measured;         // a tradeoff.json for that, or its folder
-    bool fixed_settings = false;  // --quality or a knob was given: samples alone are chosen
+    FrameTarget frame_target;  // what samples and settings are chosen by
+    std::string measured;      // a tradeoff.json for that, or its folder
     std::optional<std::vector<int64_t>> frames;
     std::optional<double> time;  // seconds: one frame at that time
     bool skip_existing = false;

@@ -223,7 +223,7 @@ bool Measurement::reference_frame(size_t f, TradeWork& work) {
     raytrace::Film mean = films[0];
     for (size_t i = 0; i < mean.rgba.size(); ++i)
         mean.rgba[i] = 0.5f * (films[0].rgba[i] + films[1].rgba[i]);
-    if (f == 0) results_.reference_png = picture_thumbnail(mean, request_.scene.color);
+    if (f == 0) results_.reference_png = picture_thumbnail(mean, encoding_of(request_.scene));
     references_.emplace_back(view_of(mean));
     reference_posed_.push_back(posed(reference_scene_, quality, f, true));
     return true;

@@ -61,7 +61,7 @@ void Measurement::compare(TradeWork& work, TradeBase& base, size_t f, bool thumb
     Plane map;
     work.errors.push_back(references_[f].errors_of(view_of(written), &map));
     if (!thumbnail) return;
-    work.row->picture_png = picture_thumbnail(written, request_.scene.color);
+    work.row->picture_png = picture_thumbnail(written, encoding_of(request_.scene));
     work.row->flip_png = flip_thumbnail(map);
 }
 

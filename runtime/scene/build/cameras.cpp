@@ -65,6 +65,7 @@ bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
         description.values.push_back(number);
         return ValueSlot{uint32_t(description.values.size() - 1), 1};
     };
+    camera.window.reset();
     camera.x = {};
     camera.y = slot(yfov);
     camera.aspect = aspect ? slot(*aspect) : ValueSlot{};

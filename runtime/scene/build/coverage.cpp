@@ -31,10 +31,10 @@ class CoverageGrid {
     Seen seen(dvec3 p) const {
         dvec3 to = p - camera_.eye;
         double depth = glm::dot(to, camera_.forward);
-        return {
-            {glm::dot(to, camera_.right) / camera_.half_width,
-             glm::dot(to, camera_.up) / camera_.half_height, camera_.orthographic ? 1.0 : depth},
-            depth};
+        const double w = camera_.orthographic ? 1.0 : depth;
+        return {{(glm::dot(to, camera_.right) - camera_.middle.x * w) / camera_.half_width,
+                 (glm::dot(to, camera_.up) - camera_.middle.y * w) / camera_.half_height, w},
+                depth};
     }
 
     // `front`: 1 or -1, the side that is seen; 0: both.

@@ -115,6 +115,9 @@ struct VertexAttribute {
 // Vertex colours in linear light, beside COLOR of the same set as the file holds them.
 inline constexpr const char* kLinearColor = "COLOR:linear";
 
+// u and v of a surface that has parameters of its own; stride 2.
+inline constexpr const char* kSurfaceParameters = "UV";
+
 // Triangles that wear one material.
 struct PrimitiveGroup {
     std::string symbol;
@@ -266,7 +269,7 @@ struct SceneDescription {
     std::optional<double> start_time, end_time, frame_rate;
     std::vector<std::string> inputs;  // read besides the texts in Diagnostics, for fingerprints
     std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file
-    AllowedPaths pictures;  // where textures and maps may lie: anywhere, unless they are confined
+    AllowedPaths pictures;   // where textures and maps may lie: anywhere, unless they are confined
     dmat4 world_space{1.0};  // from what shaders call "world"; formats may bring scenes turned
     std::optional<FilePicture> file_picture;
 };

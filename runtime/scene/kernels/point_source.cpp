@@ -9,9 +9,9 @@
 namespace kinora {
 
 void fill_columns(PointSource& source, const PointColumns& columns) {
-    source.fill(columns);
     for (auto [which, value] : kConstantColumns)
         if (float* row = columns.rows[which]) std::fill_n(row, columns.count, value);
+    source.fill(columns);
     for (float* row : columns.rows)
         if (row && columns.count > 0)
             std::fill(row + columns.count, row + jit::padded(columns.count),

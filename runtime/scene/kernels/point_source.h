@@ -16,7 +16,7 @@ struct PointColumns {
 class PointSource {
   public:
     virtual ~PointSource() = default;
-    // Fills the rows for all points but what is the same everywhere (kConstantColumns).
+    // Fills the rows for all points; those of kConstantColumns are, and may be filled otherwise.
     virtual void fill(const PointColumns& columns) = 0;
 };
 

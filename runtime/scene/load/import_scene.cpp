@@ -13,6 +13,7 @@
 #include "runtime/scene/load/smooth_normals.h"
 #include "runtime/scene/load/target_normals.h"
 #include "runtime/scene/load/twin_faces.h"
+#include "runtime/scene/ri/import/import.h"
 
 namespace kinora {
 
@@ -42,6 +43,7 @@ bool is_gltf(const std::string& path) {
 std::optional<SceneDescription> import_scene(const SceneSource& source,
                                              const ImportOptions& options,
                                              Diagnostics& diagnostics) {
+    if (is_rib(source)) return import_rib(source, options, diagnostics);
     bool gltf = source.bytes ? has_gltf_name(source.path) || source.bytes->starts_with("glTF")
                              : is_gltf(source.path);
     std::optional<SceneDescription> description =

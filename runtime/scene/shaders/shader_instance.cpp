@@ -44,6 +44,10 @@ FrameInput parameter_input(const ShaderInstance& look, const rsl::KernelKey& key
         }
         return input;
     }
+    if (source && is_given_global(name) && source->value.present()) {
+        input.source = FrameInput::Source::Value;
+        input.index = source->value.component(3, component);
+    }
     return input;
 }
 

@@ -54,6 +54,11 @@ struct FrameInput {
 
 struct ShaderInstance;
 
+// Cs or Os, which a mesh or a material may give like a parameter; else they are 1.
+inline bool is_given_global(std::string_view name) {
+    return name == "Cs" || name == "Os";
+}
+
 // A kernel whose frame-rate inputs come from a scene.
 struct SceneKernel : BoundKernel {
     std::vector<FrameInput> inputs;  // of the frame kernel
@@ -107,6 +112,8 @@ struct ShaderInstance {
     uint32_t volume = 0;    // an interior's or exterior's number: runtime/scene/medium.h
     bool exterior = false;  // that volume surrounds its object
     bool area_light = false;
+    // The light definitions that light it; nothing: all do.
+    std::optional<std::vector<uint32_t>> lights;
     std::vector<int> aovs;  // of each plane of the film: the full kernel's output, -1 if none
 
     bool opaque() const { return lowered.opacity == rsl::LoweredShader::Opacity::Opaque; }

@@ -24,9 +24,8 @@ struct TessellationLimits {
 };
 
 // Semantics of the result's attributes, beside NORMAL (set 0) and TEXCOORD (set 0, stride 2: s, t):
-// UV (stride 2: the surface's own parameters), and every variable by its name. All have entries by
-// corner. Places are those of the formula, to rounding of doubles.
-inline constexpr const char* kSurfaceParameters = "UV";
+// kSurfaceParameters (stride 2: the surface's own parameters), and every variable by its name. All
+// have entries by corner. Places are those of the formula, to rounding of doubles.
 
 struct Tessellation {
     std::vector<dvec3> positions;

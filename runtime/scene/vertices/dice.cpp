@@ -26,6 +26,7 @@ bool out_of_view(const raytrace::Camera& camera, dvec3 from_eye, double radius) 
     double z = glm::dot(from_eye, camera.forward);
     double reach = camera.orthographic ? 1.0 : z + radius;
     if (z + radius < 0) return true;
+    x -= camera.middle.x * reach, y -= camera.middle.y * reach;
     return std::abs(x) - radius > kMargin * camera.half_width * reach ||
            std::abs(y) - radius > kMargin * camera.half_height * reach;
 }

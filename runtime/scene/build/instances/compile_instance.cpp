@@ -67,7 +67,10 @@ uint32_t space_index(ShaderInstance& look, std::string_view space) {
 
 FrameInput resolve_parameter(ShaderInstance& look, const rsl::KernelKey& key) {
     FrameInput input = parameter_input(look, key);
-    if (input.source == FrameInput::Source::Spatial) input.space = space_index(look, "shader");
+    if (input.source == FrameInput::Source::Spatial) {
+        const std::string& own = look.layers[key.layer].space;
+        input.space = space_index(look, own.empty() ? "shader" : std::string_view(own));
+    }
     return input;
 }
 
@@ -151,6 +154,11 @@ void assign_columns(ShaderInstance& look) {
 
 }  // namespace
 
+static bool bound(const rsl::Layer& layer, std::string_view name) {
+    return std::ranges::any_of(layer.params,
+                               [&](const rsl::ParamBinding& param) { return param.name == name; });
+}
+
 std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
                                      const SceneDescription& description) {
     std::vector<rsl::Layer> layers;
@@ -159,14 +167,19 @@ std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
         rsl::Layer& layer = layers.emplace_back();
         layer.shader = use.shader.get();
         layer.done = l < look.done_layers;
+        layer.space = use.space;
         std::vector<bool> shape = rsl::shape_parameters(*use.shader);
         for (size_t p = 0; p < use.shader->parameters.size(); ++p)
             layer.params.push_back(
                 bind_parameter(use.shader->parameters[p], shape[p], use, look, l, description));
-        // Globals that the mesh brings, and inputs that no parameter declares.
+        // Globals that the mesh or the material brings, and inputs that no parameter declares.
         for (const VaryingParam& varying : look.varying)
-            if (varying.layer == l && (varying.name == "Cs" || varying.name.starts_with('@')))
+            if (varying.layer == l &&
+                (is_given_global(varying.name) || varying.name.starts_with('@')))
                 layer.params.push_back({varying.name, rsl::ParamBinding::Kind::Varying, {}, {}});
+        for (const ParamSource& source : use.params)
+            if (is_given_global(source.name) && !bound(layer, source.name))
+                layer.params.push_back({source.name, rsl::ParamBinding::Kind::Frame, {}, {}});
     }
     return layers;
 }

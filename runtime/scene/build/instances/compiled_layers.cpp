@@ -111,6 +111,7 @@ std::string key_of(const ShaderInstance& look, std::span<const rsl::Layer> layer
     for (const rsl::Layer& layer : layers) {
         key.add(layer.shader);
         key.add(layer.done);
+        key.add(layer.space);
         key.add(layer.params.size());
         for (const rsl::ParamBinding& param : layer.params) {
             key.add(param.name);

@@ -53,7 +53,7 @@ KeyedInstance begin_instance(const SceneDescription& description, ShaderInstance
     std::string key = fmt::format("{} {}", int(kind), static_cast<const void*>(&material));
     apply_binds(description, use, instance->layers, key);
     for (const ShaderUse& layer : instance->layers)
-        if (has_spatial_param(layer)) instance->node = node;
+        if (layer.space.empty() && has_spatial_param(layer)) instance->node = node;
     if (instance->node != kNone) key += fmt::format("|node {}", instance->node);
     return {std::move(instance), std::move(key)};
 }

@@ -34,7 +34,8 @@ bool same_source(const Edited& a, const ParamSource& p, const Edited& b, const P
 }
 
 bool same_use(const Edited& a, const ShaderUse& p, const Edited& b, const ShaderUse& q) {
-    return p.shader == q.shader && p.linear_inputs == q.linear_inputs && p.untinted == q.untinted &&
+    return p.shader == q.shader && p.space == q.space && p.linear_inputs == q.linear_inputs &&
+           p.untinted == q.untinted &&
            std::ranges::equal(p.params, q.params, [&](const auto& one, const auto& other) {
                return same_source(a, one, b, other);
            });

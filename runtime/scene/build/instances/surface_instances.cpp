@@ -1,6 +1,9 @@
 // runtime/scene/build/instances/surface_instances.cpp: shader instances of surfaces.
 #include "runtime/scene/build/instances/surface_instances.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "runtime/scene/build/instances/vertex_inputs.h"
 #include "runtime/scene/description/displacements.h"
 #include "runtime/scene/description/shader_library.h"
@@ -29,11 +32,14 @@ void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
                                         with_surfaces(displacements, material), use, shape.node);
     volumes_.add(surface, material, use);
     ShaderInstance& instance = *made.instance;
+    instance.lights = surface_use.mesh->lights;
+    if (instance.lights) made.key += fmt::format("|lights {}", fmt::join(*instance.lights, ","));
     if (moved) instance.done_layers = uint32_t(displacements.size());
     const PrimitiveGroup& group = *scene_.meshes[shape.mesh].groups[surface.group].definition;
     VertexInputs inputs = find_vertex_inputs(group, use, instance.layers);
     add_displaced_inputs(instance.layers, instance.done_layers, inputs);
     surface.st = inputs.st;
+    surface.uv = find_attribute(group, kSurfaceParameters);
     surface.varying = std::move(inputs.attributes);
     instance.varying = std::move(inputs.varying);
     made.key += varying_key(instance);

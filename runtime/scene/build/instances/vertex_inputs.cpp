@@ -22,7 +22,7 @@ class InputFinder {
         layer_ = index;
         for (const ParamSource& source : layer.params) add_texture(source);
         for (const rsl::GlobalInfo* global : layer.shader->globals_read)
-            if (std::string_view(global->name) == "Cs") add_color(layer);
+            add_global(layer, global->name);
         for (const rsl::ShaderParameter& p : layer.shader->parameters) add_parameter(layer, p);
         for (const rsl::VertexRequest& request : layer.shader->vertex_requests)
             add_request(layer, request);
@@ -63,6 +63,16 @@ class InputFinder {
             add(slot + "_s", "TEXCOORD", st, 0, 1);
             add(slot + "_t", "TEXCOORD", st, 1, 1);
         }
+    }
+
+    // Cs and Os, as the mesh has them by name or, Cs, as colours.
+    void add_global(const ShaderUse& layer, std::string_view name) {
+        if (!is_given_global(name)) return;
+        if (const VertexAttribute* given = find_attribute(group_, name);
+            given && given->stride >= 3)
+            add(std::string(name), std::string(name), given, 0, 3);
+        else if (name == "Cs")
+            add_color(layer);
     }
 
     void add_color(const ShaderUse& layer) {

@@ -1,0 +1,5 @@
+/* null.sl: a surface that is there and shows nothing. */
+surface null() {
+    Oi = Os;
+    Ci = 0;
+}

@@ -1,0 +1,102 @@
+// runtime/scene/ri/import/import.cpp: a file's bytes through the reader and the C functions to an
+// interpreter.
+#include "runtime/scene/ri/import/import.h"
+
+#include <cstdio>
+
+#include "runtime/base/file_extension.h"
+#include "runtime/base/regular_file.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/bytestream/read_stream.h"
+#include "runtime/scene/ri/calls/context.h"
+#include "runtime/scene/ri/state/interpreter.h"
+
+namespace kinora {
+namespace {
+
+std::optional<std::string> content_of(const std::string& path, size_t most = ~size_t(0)) {
+    OpenFile file = open_regular_file(path);
+    if (!file) return std::nullopt;
+    std::string content;
+    char block[65536];
+    while (content.size() < most)
+        if (size_t got =
+                std::fread(block, 1, std::min(sizeof block, most - content.size()), file.get()))
+            content.append(block, got);
+        else
+            break;
+    return content;
+}
+
+// The context of a file being read is this thread's for as long.
+class CurrentContext {
+  public:
+    explicit CurrentContext(ri::Context& context) : before_(ri::Context::current()) {
+        ri::Context::make_current(&context);
+    }
+    ~CurrentContext() { ri::Context::make_current(before_); }
+    CurrentContext(const CurrentContext&) = delete;
+
+  private:
+    ri::Context* before_;
+};
+
+}  // namespace
+
+bool is_rib(const SceneSource& source) {
+    if (has_extension(source.path, {".rib"}) || source.path.ends_with(".rib.gz")) return true;
+    constexpr size_t kLooked = 4096;
+    if (source.bytes) return ri::looks_like_rib(source.bytes->substr(0, kLooked));
+    std::optional<std::string> start = content_of(source.path, kLooked);
+    return start && ri::looks_like_rib(*start);
+}
+
+bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnostics& diagnostics,
+              const std::function<bool(SceneDescription&& world)>& take) {
+    std::optional<std::string> content =
+        source.bytes ? std::string(*source.bytes) : content_of(source.path);
+    if (!content) {
+        diagnostics.report(Code::RIB_UNREADABLE, Location{}, source.path);
+        return false;
+    }
+    ri::BytestreamReader* reader = nullptr;
+    ri::InterpreterHost host;
+    host.take_world = [&](SceneDescription&& world) {
+        if (!take(std::move(world))) reader->stop();
+    };
+    host.read_archive = [&](const std::string& path) {
+        std::optional<std::string> archive = content_of(path);
+        if (archive) reader->read(path, std::move(*archive));
+        return archive.has_value();
+    };
+    auto sink =
+        std::make_unique<ri::Interpreter>(source.path, options, std::move(host), diagnostics);
+    ri::Interpreter& interpreter = *sink;
+    ri::Context context(std::move(sink), diagnostics);
+    CurrentContext current(context);
+    ri::BytestreamReader stream(context);
+    reader = &stream;
+    bool sound = stream.read(source.path, std::move(*content));
+    interpreter.finish();
+    return sound;
+}
+
+std::optional<SceneDescription> import_rib(const SceneSource& source, const ImportOptions& options,
+                                           Diagnostics& diagnostics) {
+    std::optional<SceneDescription> found;
+    int seen = 0;
+    bool sound = read_rib(source, options, diagnostics, [&](SceneDescription&& world) {
+        found = std::move(world);
+        return ++seen <= options.world || options.world < 0;
+    });
+    if (sound && (!seen || seen <= options.world)) {
+        if (seen)
+            diagnostics.report(Code::RIB_WORLD_UNKNOWN, Location{}, options.world + 1, seen);
+        else
+            diagnostics.report(Code::RIB_NO_WORLD, Location{}, source.path);
+        found.reset();
+    }
+    return found;
+}
+
+}  // namespace kinora
