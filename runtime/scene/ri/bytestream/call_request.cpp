@@ -261,10 +261,18 @@ struct HandlerRow {
 constexpr HandlerRow kHandlers[] = {
     {"ignore", RiErrorIgnore}, {"print", RiErrorPrint}, {"abort", RiErrorAbort}};
 
+// Where findings are kept rather than told to a handler, a file does not change that: "abort" would
+// end the program that reads it.
 void error_handler(RequestReader& read, Handles&, Report& report) {
     auto found = std::ranges::find(kHandlers, arguments(read)[0].string(), &HandlerRow::name);
-    if (found != std::end(kHandlers)) return RiErrorHandler(found->handler);
-    report.add(Code::RIB_ARGUMENT, read.word(), "ErrorHandler", "it names no handler", "");
+    if (found == std::end(kHandlers)) {
+        report.add(Code::RIB_ARGUMENT, read.word(), "ErrorHandler", "it names no handler", "");
+        return;
+    }
+    Context& context = *Context::current();
+    bool told = context.handler != nullptr;
+    RiErrorHandler(found->handler);
+    if (!told) context.handler = nullptr;
 }
 
 void archive_record(RequestReader& read, Handles&, Report&) {

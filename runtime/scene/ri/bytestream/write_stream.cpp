@@ -2,32 +2,14 @@
 #include "runtime/scene/ri/bytestream/write_stream.h"
 
 #include <algorithm>
-#include <cstring>
 
+#include "runtime/scene/ri/bytestream/basis_names_p.h"
 #include "runtime/scene/ri/bytestream/stream_words_p.h"
-#include "runtime/scene/ri/calls/ri.h"
 
 namespace kinora::ri {
 namespace {
 
 constexpr std::string_view kHeading = "##RenderMan RIB-Structure 1.1\nversion 3.03\n";
-
-struct BasisName {
-    const RtBasis& basis;
-    std::string_view name;
-};
-const BasisName kBasisNames[] = {
-    {RiBezierBasis, "bezier"},   {RiBSplineBasis, "b-spline"}, {RiCatmullRomBasis, "catmull-rom"},
-    {RiHermiteBasis, "hermite"}, {RiPowerBasis, "power"},
-};
-
-std::string_view basis_name(std::span<const float> matrix) {
-    for (const BasisName& row : kBasisNames)
-        if (matrix.size_bytes() == sizeof row.basis &&
-            std::memcmp(matrix.data(), row.basis, sizeof row.basis) == 0)
-            return row.name;
-    return "";
-}
 
 bool opens(Request request) {
     return row(request).name.ends_with("Begin");
