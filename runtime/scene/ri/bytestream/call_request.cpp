@@ -252,8 +252,6 @@ void procedural(RequestReader& read, Handles&, Report& report) {
                  RiProcFree);
 }
 
-// Errors and comments.
-
 struct HandlerRow {
     std::string_view name;
     RtErrorHandler handler;
@@ -275,10 +273,6 @@ void error_handler(RequestReader& read, Handles&, Report& report) {
     if (!told) context.handler = nullptr;
 }
 
-void archive_record(RequestReader& read, Handles&, Report&) {
-    RiArchiveRecord(string(read, 0), const_cast<char*>("%s"), string(read, 1));
-}
-
 using Thunk = void (*)(RequestReader&, Handles&, Report&);
 struct ThunkRow {
     Request request;
@@ -289,13 +283,18 @@ constexpr ThunkRow kThunkRows[] = {
 };
 
 constexpr auto kThunks = [] {
-    std::array<Thunk, std::size(kThunkRows)> thunks{};
+    std::array<Thunk, std::size(kThunkRows) + 1> thunks{};
     for (const ThunkRow& row : kThunkRows) thunks[size_t(row.request)] = row.call;
     return thunks;
 }();
-static_assert(std::ranges::find(kThunks, nullptr) == kThunks.end(), "a row for each request");
+static_assert(std::ranges::count(kThunks, nullptr) == 1, "a row for each request of RIB");
 
 }  // namespace
+
+const Request* find_called(std::string_view name) {
+    const Request* request = find_request(name);
+    return request && kThunks[size_t(*request)] ? request : nullptr;
+}
 
 void call_request(RequestReader& read, Handles& handles, Report& report) {
     kThunks[size_t(read.request())](read, handles, report);

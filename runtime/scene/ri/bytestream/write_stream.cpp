@@ -62,14 +62,23 @@ StreamWriter::StreamWriter(StreamForm form, Write write)
 
 StreamWriter::~StreamWriter() = default;
 
-// Names of the interface stand alone, unless the stream gives them another meaning.
+// "Surface:wood:grain" is "grain" of one shader.
+void StreamWriter::note_declaration(const Call& call) {
+    std::string_view name = call.arguments[0].string();
+    if (auto declaration = parse_declaration(call.arguments[1].string()))
+        declared_.declare(name, *declaration);
+    size_t colon = name.rfind(':');
+    if (colon != name.npos) scoped_.emplace(name.substr(colon + 1));
+}
+
 std::string StreamWriter::token(const Parameter& parameter) const {
-    const Declaration* standard = Declarations::standard().find(parameter.name);
-    bool known =
-        standard && *standard == parameter.declaration && !redeclared_.contains(parameter.name);
-    // An inline declaration has no room for blanks in a name; it was declared before.
-    bool blank = parameter.name.find(' ') != std::string_view::npos || parameter.name.empty();
-    if (known || blank) return std::string(parameter.name);
+    const Declaration* known = declared_.find(parameter.name);
+    if (!known) known = Declarations::standard().find(parameter.name);
+    bool same = known && *known == parameter.declaration && !scoped_.contains(parameter.name);
+    // Behind an inline declaration a blank would end the name, and a bracket be part of the type.
+    bool odd = parameter.name.empty() || parameter.name[0] == '[' ||
+               parameter.name.find_first_of(" \t\n\v\f\r") != std::string_view::npos;
+    if (same || odd) return std::string(parameter.name);
     return declaration_text(parameter.declaration) + ' ' + std::string(parameter.name);
 }
 
@@ -122,10 +131,7 @@ void StreamWriter::call(const Call& call) {
         words.end_request();
         if (opens(call.request) || parts(call.request)) ++depth_;
     }
-    if (call.request == Request::Declare) {
-        std::string_view name = call.arguments[0].string();
-        redeclared_.emplace(name.substr(name.rfind(':') + 1));  // npos + 1 is 0
-    }
+    if (call.request == Request::Declare) note_declaration(call);
     write_(words.text);
     words.text.clear();
 }
