@@ -17,6 +17,14 @@ bool opens(Request request) {
 bool closes(Request request) {
     return row(request).name.ends_with("End");
 }
+// Behind an inline declaration a blank would end the name, or be left out, and a bracket be part of
+// the type.
+bool fits_inline(std::string_view name) {
+    constexpr std::string_view kBlanks = " \t\n\v\f\r";
+    auto blank = [&](char c) { return kBlanks.find(c) != kBlanks.npos; };
+    return !name.empty() && !blank(name.front()) && !blank(name.back()) && name[0] != '[' &&
+           name.find(' ') == name.npos;
+}
 // Between the parts of a condition.
 bool parts(Request request) {
     return request == Request::Else || request == Request::ElseIf;
@@ -75,10 +83,7 @@ std::string StreamWriter::token(const Parameter& parameter) const {
     const Declaration* known = declared_.find(parameter.name);
     if (!known) known = Declarations::standard().find(parameter.name);
     bool same = known && *known == parameter.declaration && !scoped_.contains(parameter.name);
-    // Behind an inline declaration a blank would end the name, and a bracket be part of the type.
-    bool odd = parameter.name.empty() || parameter.name[0] == '[' ||
-               parameter.name.find_first_of(" \t\n\v\f\r") != std::string_view::npos;
-    if (same || odd) return std::string(parameter.name);
+    if (same || !fits_inline(parameter.name)) return std::string(parameter.name);
     return declaration_text(parameter.declaration) + ' ' + std::string(parameter.name);
 }
 
