@@ -5,8 +5,8 @@
 #include "collada/document/element_numbers_p.h"
 #include "collada/extract/polygon_shape_p.h"
 #include "collada/extract/primitives_p.h"
-#include "collada/extract/triangulate_p.h"
 #include "collada/text/numbers_p.h"
+#include "runtime/base/triangulate.h"
 
 namespace kinora::collada {
 

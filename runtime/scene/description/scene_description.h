@@ -17,6 +17,7 @@
 #include "rsl/compile.h"
 #include "runtime/base/allowed_paths.h"
 #include "runtime/base/math.h"
+#include "runtime/scene/description/file_picture.h"
 #include "runtime/scene/description/memory_file.h"
 #include "skin/morph.h"
 
@@ -66,6 +67,8 @@ struct MeshUse {
     uint32_t skin = kNone;
     std::vector<uint32_t> joint_nodes;  // node definitions, kNone where unresolved
     std::vector<MaterialUse> materials;
+    // The light definitions that light it; nothing: all do.
+    std::optional<std::vector<uint32_t>> lights;
     dmat4 conversion{1.0};  // from the mesh's document into the scene's units and axes
 };
 
@@ -167,6 +170,7 @@ struct ShaderUse {
     std::vector<ParamSource> params;
     bool linear_inputs = false;  // reads kLinearColor in place of COLOR where there is one
     bool untinted = false;       // Cs is 1, whatever colours the mesh has
+    std::string space;           // the id of the node whose space is "shader"; "": the object's
 
     // What a parameter is bound to; null: to nothing.
     const ParamSource* find(std::string_view name) const {
@@ -215,6 +219,9 @@ struct CameraDefinition {
     bool orthographic = false;
     bool clips = false;                   // what lies before znear or behind zfar is not seen
     ValueSlot x, y, aspect, znear, zfar;  // fov in degrees, or magnifications; absent = not given
+    // Instead of x, y and aspect: what the picture spans, left, right, bottom and top, at z = 1 or,
+    // orthographic, anywhere. Left above right, or bottom above top, is a mirrored picture.
+    std::optional<std::array<double, 4>> window;
     PictureShaders picture;
     Location where;
 };
@@ -260,6 +267,8 @@ struct SceneDescription {
     std::vector<std::string> inputs;  // read besides the texts in Diagnostics, for fingerprints
     std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file
     AllowedPaths pictures;  // where textures and maps may lie: anywhere, unless they are confined
+    dmat4 world_space{1.0};  // from what shaders call "world"; formats may bring scenes turned
+    std::optional<FilePicture> file_picture;
 };
 
 // Calls f(ShaderUse&) for every shader of the scene with its parameters.

@@ -40,9 +40,12 @@ struct Tessellation {
 Tessellation tessellate(const CurvedSurface& surface, const PictureScale& scale,
                         const TessellationLimits& limits = {});
 
-// A place of the surface with its derivatives (per unit of u and v as shaders have them).
+// A place of the surface with its derivatives (per unit of u and v as shaders have them) and the
+// unit normal along du x dv. Where that is zero, as at poles, it is the limit from inside; zero
+// where there is none.
 struct SurfacePoint {
     dvec3 p{0.0}, du{0.0}, dv{0.0};
+    dvec3 normal{0.0};
 };
 // u, v of quadrics and patches go from 0 to 1 over the whole surface, of NURBS from low to high.
 SurfacePoint evaluate(const CurvedSurface& surface, double u, double v);

@@ -1,4 +1,4 @@
-// collada/extract/triangulate_p.h: polygons with holes become triangles.
+// runtime/base/triangulate.h: polygons with holes become triangles.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "runtime/base/math.h"
 
-namespace kinora::collada {
+namespace kinora {
 
 struct Triangulation {
     bool self_intersecting = false;  // no clean cut exists; triangles cover it somehow
@@ -21,4 +21,4 @@ struct Triangulation {
 Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32_t> loops,
                           std::vector<uint32_t>& triangles);
 
-}  // namespace kinora::collada
+}  // namespace kinora

@@ -1,7 +1,7 @@
-// collada/extract/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first
+// runtime/base/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first
 // joined to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what touches
 // itself then is taken apart.
-#include "collada/extract/triangulate_p.h"
+#include "runtime/base/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <tuple>
 #include <unordered_set>
 
-namespace kinora::collada {
+namespace kinora {
 
 namespace {
 
@@ -422,4 +422,4 @@ Triangulation triangulate(std::span<const dvec3> corners, std::span<const uint32
     return result;
 }
 
-}  // namespace kinora::collada
+}  // namespace kinora

@@ -7,9 +7,9 @@
 #include <random>
 #include <set>
 
-#include "collada/extract/triangulate_p.h"
+#include "runtime/base/triangulate.h"
 
-namespace kinora::collada {
+namespace kinora {
 namespace {
 
 struct Point {
@@ -204,4 +204,4 @@ TEST(TriangulateTouching, RegionsOfCellsAreCoveredExactly) {
 }
 
 }  // namespace
-}  // namespace kinora::collada
+}  // namespace kinora

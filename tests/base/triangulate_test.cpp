@@ -1,12 +1,12 @@
 // tests/collada/triangulate_test.cpp: random concave polygons against area and inside tests.
-#include "collada/extract/triangulate_p.h"
+#include "runtime/base/triangulate.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace kinora::collada {
+namespace kinora {
 namespace {
 
 double twice_area(dvec2 a, dvec2 b, dvec2 c) {
@@ -158,4 +158,4 @@ TEST(Triangulate, HugePolygonsEndInBoundedTime) {
 }
 
 }  // namespace
-}  // namespace kinora::collada
+}  // namespace kinora

@@ -1,0 +1,281 @@
+// runtime/scene/ri/state/blocks.cpp: blocks, and what is kept between two requests instead of done.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/state/interpreter.h"
+
+namespace kinora::ri {
+namespace {
+
+constexpr int kDeepestReplay = 64;
+constexpr size_t kMostReplayed = 20'000'000;  // calls of objects and archives, in a file
+
+struct BlockRow {
+    Request begin, end;
+};
+constexpr BlockRow kBlocks[] = {
+    {Request::FrameBegin, Request::FrameEnd},
+    {Request::WorldBegin, Request::WorldEnd},
+    {Request::AttributeBegin, Request::AttributeEnd},
+    {Request::TransformBegin, Request::TransformEnd},
+    {Request::SolidBegin, Request::SolidEnd},
+};
+
+Request begin_of(Request end) {
+    return std::ranges::find(kBlocks, end, &BlockRow::end)->begin;
+}
+
+// What lies between two calls of one request: numbers are mixed, all else is the first's.
+class Between {
+  public:
+    Between(const Call& a, const Call& b, float part) : call_(a), part_(part) {
+        for (size_t i = 0; i < a.arguments.size(); ++i)
+            arguments_.push_back(i < b.arguments.size() ? mix(a.arguments[i], b.arguments[i])
+                                                        : a.arguments[i]);
+        for (const Parameter& p : a.parameters) {
+            parameters_.push_back(p);
+            const Parameter* other = b.find(p.name);
+            if (other) parameters_.back().values = mix(p.values, other->values);
+        }
+        call_.arguments = arguments_;
+        call_.parameters = parameters_;
+    }
+    const Call& call() const { return call_; }
+
+  private:
+    Values mix(const Values& a, const Values& b) {
+        auto from = a.floats(), to = b.floats();
+        if (from.size() != to.size() || from.empty()) return a;
+        std::vector<float>& mixed = *numbers_.emplace_back(new std::vector<float>);
+        for (size_t i = 0; i < from.size(); ++i)
+            mixed.push_back(from[i] + part_ * (to[i] - from[i]));
+        return a.is_array() ? Values(std::span<const float>(mixed)) : Values(mixed[0]);
+    }
+
+    Call call_;
+    float part_;
+    std::vector<Values> arguments_;
+    std::vector<Parameter> parameters_;
+    std::vector<std::unique_ptr<std::vector<float>>> numbers_;
+};
+
+}  // namespace
+
+void Interpreter::begin_block(const Call& call) {
+    Block block{call.request, call.where, attributes_, transform_, nullptr, {}};
+    if (call.request == Request::FrameBegin) {
+        block.options = std::make_unique<Options>(options_);
+        frame_ = call.arguments[0].integer();
+    }
+    if (call.request == Request::SolidBegin && call.arguments[0].string() != "primitive")
+        not_done("SolidBegin", "solids are drawn as their surfaces");
+    blocks_.push_back(std::move(block));
+}
+
+void Interpreter::world_begin(const Call& call) {
+    if (in_world())
+        return report(Code::RI_NESTING, "WorldBegin", "a world block stands within another");
+    blocks_.push_back({call.request, call.where, attributes_, transform_, nullptr, {}});
+    camera_from_world_ = transform_;
+    transform_ = dmat4(1.0);
+    ++worlds_;
+    world_ = std::make_unique<World>(options_, path_, import_, camera_from_world_,
+                                     frame_.value_or(worlds_));
+}
+
+void Interpreter::world_end(const Call& call) {
+    if (!in_world()) return report(Code::RI_NESTING, "WorldEnd", "no world block is open");
+    end_block(call);
+}
+
+void Interpreter::close_world() {
+    std::unique_ptr<World> world = std::move(world_);
+    camera_from_world_ = dmat4(1.0);
+    host_.take_world(world->take(spaces_));
+}
+
+void Interpreter::restore(Block& block) {
+    if (block.begin == Request::WorldBegin) close_world();
+    if (block.begin != Request::TransformBegin) attributes_ = std::move(block.attributes);
+    if (block.options) options_ = std::move(*block.options);
+    if (block.begin == Request::FrameBegin) frame_.reset();
+    transform_ = block.transform;
+}
+
+// An End closes its block and, with a finding, those opened since; one that has no block is left
+// out. A world or frame is not closed by what stands within it.
+void Interpreter::end_block(const Call& call) {
+    const Request wanted = begin_of(call.request);
+    size_t at = blocks_.size();
+    while (at > 0 && blocks_[at - 1].begin != wanted) {
+        bool outer = blocks_[at - 1].begin == Request::WorldBegin;
+        if (outer && wanted != Request::FrameBegin) break;
+        --at;
+    }
+    if (at == 0 || blocks_[at - 1].begin != wanted)
+        return report(Code::RI_NESTING, row(call.request).name, "its block is not open");
+    if (at < blocks_.size())
+        report(Code::RI_NESTING, row(call.request).name,
+               fmt::format("{} is still open and ends with it", row(blocks_.back().begin).name));
+    while (blocks_.size() >= at) {
+        Block block = std::move(blocks_.back());
+        blocks_.pop_back();
+        restore(block);
+    }
+}
+
+void Interpreter::finish() {
+    if (!blocks_.empty())
+        diagnostics_.report(Code::RI_NESTING, blocks_.back().where, row(blocks_.back().begin).name,
+                            "it is not closed at the file's end");
+    recording_.clear();
+    while (!blocks_.empty()) {
+        Block block = std::move(blocks_.back());
+        blocks_.pop_back();
+        restore(block);
+    }
+}
+
+void Interpreter::motion_begin(const Call& call) {
+    auto times = call.arguments[0].floats();
+    Recording motion{Request::MotionEnd, 1, "", 0, {times.begin(), times.end()}, call.where};
+    recording_.push_back(std::move(motion));
+}
+
+// Of the calls of a motion block the one at the shutter's opening is done.
+void Interpreter::motion_end(const Call&) {
+    if (recording_.empty() || recording_.back().end != Request::MotionEnd)
+        return report(Code::RI_NESTING, "MotionEnd", "its block is not open");
+    Recording motion = std::move(recording_.back());
+    recording_.pop_back();
+    const std::vector<Call>& calls = motion.calls->calls();
+    if (calls.empty()) return;
+    if (calls.size() != motion.times.size())
+        report(Code::RI_MOTION,
+               fmt::format("{} times and {} calls", motion.times.size(), calls.size()));
+    if (options_.shutter_close > options_.shutter_open)
+        not_done("MotionBegin", "things stand as at the opening of the shutter");
+    size_t count = std::min(calls.size(), motion.times.size()), at = 0;
+    const float open = float(options_.shutter_open);
+    while (at + 1 < count && motion.times[at + 1] <= open) ++at;
+    bool same = at + 1 < count && calls[at].request == calls[at + 1].request;
+    if (!same || !(open > motion.times[at]))
+        return this->call(calls[std::min(at, calls.size() - 1)]);
+    float span = motion.times[at + 1] - motion.times[at];
+    this->call(Between(calls[at], calls[at + 1], (open - motion.times[at]) / span).call());
+}
+
+void Interpreter::object_begin(const Call& call) {
+    Recording object{Request::ObjectEnd, 1, "", call.arguments[0].integer(), {}, call.where};
+    recording_.push_back(std::move(object));
+}
+
+void Interpreter::archive_begin(const Call& call) {
+    std::string name(call.arguments[0].string());
+    Recording archive{Request::ArchiveEnd, 1, std::move(name), 0, {}, call.where};
+    recording_.push_back(std::move(archive));
+}
+
+// Whether the call is kept, and so not done now.
+bool Interpreter::record(const Call& call) {
+    if (recording_.empty()) return false;
+    Recording& open = recording_.back();
+    if (open.end == Request::MotionEnd) {
+        if (call.request == Request::MotionEnd) return false;
+        open.calls->add(call);
+        return true;
+    }
+    bool object = open.end == Request::ObjectEnd;
+    if (call.request == (object ? Request::ObjectBegin : Request::ArchiveBegin)) ++open.depth;
+    if (call.request == open.end && --open.depth == 0) {
+        if (object)
+            objects_[open.object] = open.calls;
+        else
+            archives_.insert_or_assign(open.archive, open.calls);
+        recording_.pop_back();
+        return true;
+    }
+    open.calls->add(call);
+    return true;
+}
+
+void Interpreter::replay(const CallList& calls) {
+    if (replay_depth_ >= kDeepestReplay || replayed_ > kMostReplayed) {
+        report(Code::RI_RANGE, "ObjectInstance",
+               "objects and archives stand within each other too deep or too often");
+        return;
+    }
+    ++replay_depth_;
+    for (const Call& call : calls.calls()) {
+        ++replayed_;
+        replayed_call_ = &call;
+        this->call(call);
+    }
+    --replay_depth_;
+}
+
+void Interpreter::object_instance(const Call& call) {
+    auto object = objects_.find(call.arguments[0].integer());
+    if (object == objects_.end()) return report(Code::RI_HANDLE, "ObjectInstance");
+    std::shared_ptr<CallList> calls = object->second;  // one of its calls may replace it
+    Attributes attributes = attributes_;
+    dmat4 transform = transform_;
+    replay(*calls);
+    attributes_ = std::move(attributes);
+    transform_ = transform;
+}
+
+void Interpreter::read_archive(const Call& call) {
+    std::string name(call.arguments[0].string());
+    if (auto kept = archives_.find(name); kept != archives_.end()) {
+        std::shared_ptr<CallList> calls = kept->second;
+        return replay(*calls);
+    }
+    if (replay_depth_ >= kDeepestReplay)
+        return report(Code::RI_RANGE, "ReadArchive", "archives read each other too deep");
+    ++replay_depth_;
+    bool found = false;
+    for (const std::string& folder : folders("archive"))
+        if (!found) found = host_.read_archive(folder + name);
+    if (size_t slash = name.find_last_of("/\\"); !found && slash != name.npos)
+        for (const std::string& folder : folders("archive"))
+            if (!found) found = host_.read_archive(folder + name.substr(slash + 1));
+    --replay_depth_;
+    if (!found) diagnostics_.report(Code::RI_ARCHIVE, call.where, name);
+}
+
+void Interpreter::procedural(const Call& call) {
+    auto strings = call.arguments[1].strings();
+    if (call.arguments[0].string() != "DelayedReadArchive" || strings.empty())
+        return not_done("Procedural", "programs and libraries that a file names are not run");
+    std::vector<Values> arguments{strings[0]};
+    Call archive{Request::ReadArchive, arguments, {}, {}, call.where};
+    Attributes attributes = attributes_;
+    dmat4 transform = transform_;
+    read_archive(archive);
+    attributes_ = std::move(attributes);
+    transform_ = transform;
+}
+
+// Expressions are not computed: the first branch is read.
+void Interpreter::if_begin(const Call&) {
+    not_done("IfBegin", "expressions are not computed; the first branch is read");
+    branches_.push_back(true);
+}
+
+void Interpreter::branch_else(const Call& call) {
+    if (branches_.empty())
+        return report(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
+    skipped_branch_ = 1;
+}
+
+void Interpreter::if_end(const Call& call) {
+    if (branches_.empty())
+        return report(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
+    branches_.pop_back();
+}
+
+void Interpreter::ignore(const Call&) {}
+
+}  // namespace kinora::ri

@@ -1,0 +1,119 @@
+// runtime/scene/ri/state/curved.cpp: quadrics, patches and NURBS as their numbers.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/scene/ri/state/primitives.h"
+
+namespace kinora::ri {
+namespace {
+
+struct QuadricRow {
+    Request request;
+    CurvedKind kind;
+};
+constexpr QuadricRow kQuadrics[] = {
+    {Request::Sphere, CurvedKind::Sphere},         {Request::Cone, CurvedKind::Cone},
+    {Request::Cylinder, CurvedKind::Cylinder},     {Request::Hyperboloid, CurvedKind::Hyperboloid},
+    {Request::Paraboloid, CurvedKind::Paraboloid}, {Request::Disk, CurvedKind::Disk},
+    {Request::Torus, CurvedKind::Torus},
+};
+
+VariableRate rate_of(StorageClass storage) {
+    switch (storage) {
+        case StorageClass::Constant:
+            return VariableRate::Constant;
+        case StorageClass::Uniform:
+            return VariableRate::Uniform;
+        case StorageClass::Vertex:
+            return VariableRate::Vertex;
+        default:
+            return VariableRate::Varying;
+    }
+}
+
+void take_variables(const Call& call, CurvedSurface& surface) {
+    for (const Parameter& p : call.parameters) {
+        auto numbers = p.values.floats();
+        if (p.name == "P" || p.name == "Pw" || p.name == "Pz" || numbers.empty()) continue;
+        SurfaceVariable made;
+        made.name = p.name == "Np" ? "N" : std::string(p.name);
+        made.rate = rate_of(p.declaration.storage);
+        if (is_quadric(surface.kind) && made.rate == VariableRate::Vertex)
+            made.rate = VariableRate::Varying;
+        made.components = p.declaration.elements() * components(p.declaration.type, 3);
+        made.values.assign(numbers.begin(), numbers.end());
+        surface.variables.push_back(std::move(made));
+    }
+}
+
+// Points of P, of Pw, or of heights Pz over the unit square.
+bool take_points(const Call& call, CurvedSurface& surface) {
+    const Parameter *p = call.find("P"), *pw = call.find("Pw"), *pz = call.find("Pz");
+    const size_t count = size_t(surface.u.points) * surface.v.points;
+    surface.rational = !p && pw;
+    auto numbers = p    ? p->values.floats()
+                   : pw ? pw->values.floats()
+                   : pz ? pz->values.floats()
+                        : std::span<const float>();
+    const size_t stride = p ? 3 : pw ? 4 : 1;
+    if (numbers.size() < count * stride) return false;
+    for (size_t i = 0; i < count; ++i) {
+        const float* at = numbers.data() + i * stride;
+        if (stride > 1) {
+            surface.points.emplace_back(at[0], at[1], at[2], stride == 4 ? at[3] : 1.0f);
+            continue;
+        }
+        double nu = std::max(surface.u.points - 1, 1u), nv = std::max(surface.v.points - 1, 1u);
+        surface.points.emplace_back(double(i % surface.u.points) / nu,
+                                    double(i / surface.u.points) / nv, double(at[0]), 1.0);
+    }
+    return true;
+}
+
+void take_patches(const Call& call, const Attributes& attributes, CurvedSurface& surface) {
+    bool bicubic = call.arguments[0].string() == "bicubic";
+    surface.kind = bicubic ? CurvedKind::Bicubic : CurvedKind::Bilinear;
+    surface.u.basis = attributes.u.matrix, surface.v.basis = attributes.v.matrix;
+    surface.u.step = attributes.u.step, surface.v.step = attributes.v.step;
+    surface.u.points = surface.v.points = bicubic ? 4 : 2;
+    if (call.request == Request::Patch) return;
+    surface.u.points = uint32_t(std::max(call.arguments[1].integer(), 0));
+    surface.v.points = uint32_t(std::max(call.arguments[3].integer(), 0));
+    surface.u.periodic = call.arguments[2].string() == "periodic";
+    surface.v.periodic = call.arguments[4].string() == "periodic";
+}
+
+void take_direction(std::span<const Values> arguments, PatchDirection& to) {
+    to.points = uint32_t(std::max(arguments[0].integer(), 0));
+    to.order = uint32_t(std::max(arguments[1].integer(), 0));
+    for (float knot : arguments[2].floats()) to.knots.push_back(double(knot));
+    to.low = double(arguments[3].real());
+    to.high = double(arguments[4].real());
+}
+
+}  // namespace
+
+std::optional<CurvedSurface> curved_surface(const Call& call, const Attributes& attributes) {
+    CurvedSurface surface;
+    surface.reversed = is_front_reversed(attributes);
+    std::ranges::copy(attributes.corners, surface.corners);
+    auto quadric = std::ranges::find(kQuadrics, call.request, &QuadricRow::request);
+    if (quadric != std::end(kQuadrics)) {
+        surface.kind = quadric->kind;
+        for (size_t i = 0; i < call.arguments.size() && i < std::size(surface.numbers); ++i)
+            surface.numbers[i] = double(call.arguments[i].real());
+    } else if (call.request == Request::NuPatch) {
+        surface.kind = CurvedKind::Nurbs;
+        take_direction(call.arguments.subspan(0, 5), surface.u);
+        take_direction(call.arguments.subspan(5, 5), surface.v);
+        surface.trims = attributes.trims;
+        surface.trim_outside = attributes.trim_outside;
+    } else {
+        take_patches(call, attributes, surface);
+    }
+    if (!is_quadric(surface.kind) && !take_points(call, surface)) return std::nullopt;
+    take_variables(call, surface);
+    return surface;
+}
+
+}  // namespace kinora::ri

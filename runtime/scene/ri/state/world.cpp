@@ -1,0 +1,327 @@
+// runtime/scene/ri/state/world.cpp: a scene description, primitive by primitive.
+#include "runtime/scene/ri/state/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "runtime/scene/description/shader_library.h"
+
+namespace kinora::ri {
+namespace {
+
+// Camera space of the interface looks along z, that of cameras along -z.
+dmat4 turned_z(dmat4 m) {
+    for (int c = 0; c < 4; ++c) m[c][2] = -m[c][2];
+    return m;
+}
+
+std::array<double, 16> numbers_of(const dmat4& m) {
+    std::array<double, 16> numbers;
+    std::memcpy(numbers.data(), &m[0][0], sizeof numbers);
+    return numbers;
+}
+
+// The shapes of a picture: 3.2, section 4.1.1. The part that the crop window leaves.
+struct Frame {
+    int width, height;
+    double aspect;
+};
+Frame frame_of(const Options& options) {
+    Frame frame{options.width, options.height, 1};
+    double aspect = options.width * options.pixel_aspect / options.height;
+    frame.aspect = options.frame_aspect.value_or(aspect);
+    if (frame.aspect > aspect * (1 + 1e-9))
+        frame.height = int(std::lround(options.width * options.pixel_aspect / frame.aspect));
+    else if (frame.aspect < aspect * (1 - 1e-9))
+        frame.width = int(std::lround(options.height * frame.aspect / options.pixel_aspect));
+    frame.width = std::max(frame.width, 1);
+    frame.height = std::max(frame.height, 1);
+    return frame;
+}
+
+std::array<double, 4> screen_of(const Options& options, double aspect) {
+    if (options.screen_window) return *options.screen_window;
+    if (aspect >= 1) return {-aspect, aspect, -1, 1};
+    return {-1, 1, -1 / aspect, 1 / aspect};
+}
+
+struct Pixels {
+    int first, last;
+};
+Pixels cropped(int size, double low, double high) {
+    auto at = [&](double x) { return int(std::clamp(std::ceil(x), 0.0, double(size - 1))); };
+    Pixels made{at(size * low), at(size * high - 1)};
+    made.last = std::max(made.first, made.last);
+    return made;
+}
+
+FilePicture picture_of(const Options& options) {
+    FilePicture made;
+    if (options.samples)
+        made.samples = std::max(1, int(std::lround((*options.samples)[0] * (*options.samples)[1])));
+    made.filter = options.filter;
+    made.filter_width = options.filter_width;
+    made.pixel_aspect = options.pixel_aspect;
+    made.gain = options.gain;
+    made.gamma = options.gamma;
+    made.displays = options.displays;
+    for (FileDisplay& display : made.displays)
+        display.quantization = display.mode == "z" ? options.depths : options.colors;
+    return made;
+}
+
+}  // namespace
+
+WorldCamera camera_of(const Options& options) {
+    WorldCamera made{picture_of(options), {}, 0};
+    Frame frame = frame_of(options);
+    std::array<double, 4> screen = screen_of(options, frame.aspect);
+    const Projection& projection = options.projection;
+    double unit = projection.perspective ? std::tan(radians(projection.fov) / 2) : 1;
+    Pixels x = cropped(frame.width, options.crop[0], options.crop[1]);
+    Pixels y = cropped(frame.height, options.crop[2], options.crop[3]);
+    double dx = (screen[1] - screen[0]) / frame.width, dy = (screen[3] - screen[2]) / frame.height;
+    made.window[0] = unit * (screen[0] + dx * x.first);
+    made.window[1] = unit * (screen[0] + dx * (x.last + 1));
+    made.window[2] = unit * (screen[3] - dy * (y.last + 1));
+    made.window[3] = unit * (screen[3] - dy * y.first);
+    made.pixels = 1 / (unit * std::min(std::abs(dx), std::abs(dy)));
+    FilePicture& picture = made.picture;
+    picture.full_width = frame.width, picture.full_height = frame.height;
+    picture.left = x.first, picture.top = y.first;
+    picture.width = x.last - x.first + 1, picture.height = y.last - y.first + 1;
+    return made;
+}
+
+World::World(const Options& options, const std::string& path, const ImportOptions& import,
+             const dmat4& camera_from_world, int number)
+    : options_(options), camera_from_world_(camera_from_world), camera_(camera_of(options)) {
+    out_.path = path;
+    out_.up_axis = UpAxis::Y;
+    limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
+    out_.world_space = turned_z(camera_from_world);
+    camera_.picture.number = number;
+    add_camera();
+}
+
+void World::add_camera() {
+    CameraDefinition camera;
+    camera.id = "camera";
+    camera.orthographic = !options_.projection.perspective;
+    camera.window = {camera_.window[0], camera_.window[1], camera_.window[2], camera_.window[3]};
+    camera.clips = true;
+    double near = std::max(options_.near, 1e-10), far = std::min(options_.far, 1e30);
+    camera.znear = values(std::span(&near, 1));
+    camera.zfar = values(std::span(&far, 1));
+    for (const Binding& imager : options_.imagers)
+        camera.picture.imagers.push_back(shader_use(*imager, nullptr));
+    out_.cameras.push_back(std::move(camera));
+    // What the transformation was at Projection comes between the camera and the screen.
+    NodeDefinition& node =
+        out_.nodes[this->node(glm::inverse(options_.projection.from_camera), "camera node")];
+    node.cameras = {0};
+    // A camera node looks along its own -z.
+    for (int r = 0; r < 3; ++r) out_.values[node.transforms[0].value + size_t(4 * r + 2)] *= -1;
+}
+
+ValueSlot World::values(std::span<const double> numbers) {
+    ValueSlot slot{uint32_t(out_.values.size()), uint32_t(numbers.size())};
+    out_.values.insert(out_.values.end(), numbers.begin(), numbers.end());
+    return slot;
+}
+
+// A node that stands there; those without an id are one for each place.
+uint32_t World::node(const dmat4& to_camera, std::string id) {
+    const bool named = !id.empty();
+    if (!named)
+        if (auto known = nodes_.find(numbers_of(to_camera)); known != nodes_.end())
+            return known->second;
+    dmat4 m = turned_z(to_camera);
+    double rows[16];
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) rows[4 * r + c] = m[c][r];
+    NodeDefinition made;
+    made.id = std::move(id);
+    made.transforms = {{TransformKind::Matrix, values(rows).offset}};
+    uint32_t index = uint32_t(out_.nodes.size());
+    out_.nodes.push_back(std::move(made));
+    out_.roots.push_back({index, dmat4(1.0)});
+    if (!named) nodes_.emplace(numbers_of(to_camera), index);
+    return index;
+}
+
+std::string World::space_name(const dmat4& to_camera) {
+    auto [entry, is_new] = spaces_.try_emplace(numbers_of(to_camera));
+    if (is_new) {
+        entry->second = "shader space " + std::to_string(spaces_.size());
+        node(to_camera, entry->second);
+    }
+    return entry->second;
+}
+
+ShaderUse World::shader_use(const ShaderBinding& binding, const dmat4* object_to_camera) {
+    ShaderUse use;
+    use.shader = binding.shader;
+    use.untinted = false;
+    for (const ShaderArgument& argument : binding.arguments) {
+        ParamSource source;
+        source.name = argument.name;
+        source.strings = argument.strings;
+        if (!argument.numbers.empty()) source.value = values(argument.numbers);
+        source.where = binding.where;
+        use.params.push_back(std::move(source));
+    }
+    if (object_to_camera && *object_to_camera != binding.to_camera)
+        use.space = space_name(binding.to_camera);
+    return use;
+}
+
+std::vector<ShaderUse> World::shader_uses(const std::vector<Binding>& bindings,
+                                          const dmat4& to_camera) {
+    std::vector<ShaderUse> uses;
+    for (const Binding& binding : bindings) uses.push_back(shader_use(*binding, &to_camera));
+    return uses;
+}
+
+uint32_t World::light(const Light& light) {
+    auto [entry, is_new] = lights_.try_emplace(light.get(), uint32_t(out_.lights.size()));
+    if (!is_new) return entry->second;
+    held_.push_back(light);
+    LightDefinition definition;
+    definition.id = fmt::format("light {}", light->number);
+    definition.shader = shader_use(light->shader, nullptr);
+    definition.shadows = light->shadows;
+    definition.samples = uint32_t(std::max(light->samples, 0));
+    definition.where = light->shader.where;
+    out_.lights.push_back(std::move(definition));
+    // A light's space is its node's with z turned round.
+    uint32_t at = node(light->shader.to_camera, fmt::format("light node {}", entry->second));
+    for (int r = 0; r < 3; ++r)
+        out_.values[out_.nodes[at].transforms[0].value + size_t(4 * r + 2)] *= -1;
+    out_.nodes[at].lights = {entry->second};
+    return entry->second;
+}
+
+std::vector<uint32_t> World::light_list(const Attributes& attributes) {
+    std::vector<uint32_t> list;
+    for (const Light& on : attributes.lights) list.push_back(light(on));
+    std::ranges::sort(list);
+    auto repeated = std::ranges::unique(list);
+    list.erase(repeated.begin(), repeated.end());
+    return list;
+}
+
+uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
+    const std::vector<Binding>* all[] = {&attributes.surfaces, &attributes.displacements,
+                                         &attributes.deformations, &attributes.interiors,
+                                         &attributes.exteriors};
+    std::string key;
+    bool own_space = false;
+    for (const auto* bindings : all) {
+        for (const Binding& binding : *bindings) {
+            key += fmt::format(" {}", static_cast<const void*>(binding.get()));
+            own_space |= binding->to_camera != to_camera;
+        }
+        key += ';';
+    }
+    const dvec3 &c = attributes.color, &o = attributes.opacity;
+    key += fmt::format("{} {} {} {} {} {} {} {} {} {}", c.x, c.y, c.z, o.x, o.y, o.z,
+                       attributes.two_sided, attributes.no_surface, own_space,
+                       static_cast<const void*>(attributes.area_light.get()));
+    auto [entry, is_new] = materials_.try_emplace(std::move(key), uint32_t(out_.materials.size()));
+    if (!is_new) return entry->second;
+    for (const auto* bindings : all) held_.insert(held_.end(), bindings->begin(), bindings->end());
+    MaterialDefinition made;
+    made.name = attributes.name;
+    made.id = fmt::format("material {}", entry->second);
+    made.surfaces = shader_uses(attributes.surfaces, to_camera);
+    if (made.surfaces.empty()) {
+        ShaderUse plain;
+        plain.shader = library_shader(attributes.no_surface ? "null" : "defaultsurface");
+        made.surfaces.push_back(std::move(plain));
+    }
+    made.displacements = shader_uses(attributes.displacements, to_camera);
+    made.transformations = shader_uses(attributes.deformations, to_camera);
+    made.interior = shader_uses(attributes.interiors, to_camera);
+    made.exterior = shader_uses(attributes.exteriors, to_camera);
+    made.hide_backfaces = !attributes.two_sided;
+    ParamSource color, opacity;
+    color.name = "Cs", opacity.name = "Os";
+    color.value = values(std::span(&c.x, 3));
+    opacity.value = values(std::span(&o.x, 3));
+    for (auto* uses : {&made.surfaces, &made.displacements})
+        for (ShaderUse& use : *uses) {
+            use.params.push_back(color);
+            use.params.push_back(opacity);
+        }
+    if (attributes.area_light) {
+        held_.push_back(attributes.area_light);
+        made.lights = {shader_use(attributes.area_light->shader, &to_camera)};
+        made.light_shadows = attributes.area_light->shadows;
+        made.light_samples = uint32_t(std::max(attributes.area_light->samples, 0));
+    }
+    out_.materials.push_back(std::move(made));
+    return entry->second;
+}
+
+void World::use_mesh(uint32_t mesh, const Attributes& attributes, const dmat4& to_camera) {
+    MeshUse use;
+    use.mesh = mesh;
+    MaterialUse worn;
+    worn.material = material(attributes, to_camera);
+    use.materials = {worn};
+    use.lights = light_list(attributes);
+    out_.nodes[node(to_camera)].meshes.push_back(std::move(use));
+    if (out_.picture.atmosphere.empty() && !attributes.atmospheres.empty())
+        for (const Binding& binding : attributes.atmospheres)
+            out_.picture.atmosphere.push_back(shader_use(*binding, nullptr));
+}
+
+void World::add(MeshDefinition mesh, const Attributes& attributes, const dmat4& to_camera) {
+    uint32_t index = uint32_t(out_.meshes.size());
+    mesh.id = fmt::format("primitive {}", index);
+    mesh.name = attributes.name;
+    out_.meshes.push_back(std::move(mesh));
+    use_mesh(index, attributes, to_camera);
+}
+
+void World::keep_mesh(const void* key, const Attributes& attributes) {
+    kept_[{key, attributes.inside_out}] = uint32_t(out_.meshes.size() - 1);
+}
+
+bool World::add_again(const void* key, const Attributes& attributes, const dmat4& to_camera) {
+    auto known = kept_.find({key, attributes.inside_out});
+    if (known == kept_.end()) return false;
+    use_mesh(known->second, attributes, to_camera);
+    return true;
+}
+
+PictureScale World::scale(const dmat4& to_camera) const {
+    PictureScale made;
+    made.to_camera = options_.projection.from_camera * to_camera;
+    made.orthographic = !options_.projection.perspective;
+    made.pixels = camera_.pixels;
+    made.near = std::max(options_.near, 1e-3);
+    return made;
+}
+
+// Where every mesh sees every light, nothing is to be said.
+void World::settle_lights() {
+    std::vector<uint32_t> all(out_.lights.size());
+    std::iota(all.begin(), all.end(), 0u);
+    for (NodeDefinition& node : out_.nodes)
+        for (MeshUse& use : node.meshes)
+            if (use.lights == all) use.lights.reset();
+}
+
+SceneDescription World::take(const std::map<std::string, dmat4, std::less<>>& spaces) {
+    for (const auto& [name, to_camera] : spaces) node(to_camera, name);
+    settle_lights();
+    out_.animated.assign(out_.values.size(), false);
+    out_.file_picture = std::move(camera_.picture);
+    return std::move(out_);
+}
+
+}  // namespace kinora::ri
