@@ -187,8 +187,8 @@ const char* scan_word(const char* p, const char* end, float& value) {
     return stop && std::isfinite(number) ? stop : nullptr;
 }
 const char* scan_word(const char* p, const char* end, int32_t& value) {
-    if (p < end && *p == '+') ++p;
-    auto [stop, error] = std::from_chars(p, end, value);
+    if (!begins_number(p, end)) return nullptr;
+    auto [stop, error] = std::from_chars(p + (*p == '+'), end, value);
     bool longer = stop < end && (*stop == '.' || *stop == 'e' || *stop == 'E');
     return error == std::errc{} && !longer ? stop : nullptr;
 }
@@ -205,7 +205,7 @@ const char* append_run(const char* begin, const char* p, const char* end, std::v
         if (out - piece > kPiece / 32) continue;  // most of the piece
         while (p < end && is_number_space(*p)) ++p;
         T value;
-        const char* stop = begins_number(p, end) ? scan_word(p, end, value) : nullptr;
+        const char* stop = scan_word(p, end, value);
         if (!stop) return p;
         values.push_back(value);
         p = stop;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/scene/ri/bytestream/basis_names_p.h"
 #include "runtime/scene/ri/bytestream/request_reader_p.h"
 
 namespace kinora::ri {
@@ -28,15 +29,6 @@ size_t numbers_of(char letter, uint32_t color_samples) {
     }
 }
 
-struct BasisRow {
-    std::string_view name;
-    const RtBasis& basis;
-};
-const BasisRow kBases[] = {
-    {"bezier", RiBezierBasis},   {"b-spline", RiBSplineBasis}, {"catmull-rom", RiCatmullRomBasis},
-    {"hermite", RiHermiteBasis}, {"power", RiPowerBasis},
-};
-
 // Numbers that files leave out at the end of a request.
 struct AssumedRow {
     Request request;
@@ -55,8 +47,11 @@ constexpr std::string_view kNotClosed = "an array is not closed";
 
 }  // namespace
 
+// Where the request ends too early, it has the place.
 Outcome RequestReader::argument_error(const Token& at, std::string_view what) {
-    report_.add(Code::RIB_ARGUMENT, at, name(), what, Report::byte(at));
+    bool ended = at.kind == TokenKind::Word || at.kind == TokenKind::End;
+    const Token& place = ended ? word_ : at;
+    report_.add(Code::RIB_ARGUMENT, place, name(), what, Report::byte(place));
     return Outcome::LeftOut;
 }
 
@@ -195,11 +190,11 @@ Outcome RequestReader::read_basis() {
     Token token = lexer_.peek();
     if (token.kind != TokenKind::String) return read_group("m");
     lexer_.take();
-    auto row = std::ranges::find(kBases, token.text, &BasisRow::name);
-    if (row == std::end(kBases))
+    const float* basis = basis_named(token.text);
+    if (!basis)
         return argument_error(token, fmt::format("no basis is called '{}'", shown(token.text)));
     arguments_.push_back({Values::Kind::Floats, true, floats_.size(), 16});
-    floats_.insert(floats_.end(), &row->basis[0][0], &row->basis[0][0] + 16);
+    floats_.insert(floats_.end(), basis, basis + 16);
     return Outcome::Read;
 }
 
@@ -313,8 +308,7 @@ Outcome RequestReader::read_values(Values::Kind kind, bool several, Piece& piece
     if (first.kind == TokenKind::Bad || first.kind == TokenKind::Close)
         return syntax_error(first, "a bracket closes nothing");
     if (first.kind == TokenKind::Word || first.kind == TokenKind::End)
-        return argument_error(first.kind == TokenKind::End ? word_ : first,
-                              fmt::format("{} wanted, and the request ends", wanted));
+        return argument_error(first, fmt::format("{} wanted, and the request ends", wanted));
     auto size = [&] {
         return strings ? strings_.size() : integers ? integers_.size() : floats_.size();
     };

@@ -252,8 +252,6 @@ void procedural(RequestReader& read, Handles&, Report& report) {
                  RiProcFree);
 }
 
-// Errors and comments.
-
 struct HandlerRow {
     std::string_view name;
     RtErrorHandler handler;
@@ -261,14 +259,18 @@ struct HandlerRow {
 constexpr HandlerRow kHandlers[] = {
     {"ignore", RiErrorIgnore}, {"print", RiErrorPrint}, {"abort", RiErrorAbort}};
 
+// Where findings are kept rather than told to a handler, a file does not change that: "abort" would
+// end the program that reads it.
 void error_handler(RequestReader& read, Handles&, Report& report) {
     auto found = std::ranges::find(kHandlers, arguments(read)[0].string(), &HandlerRow::name);
-    if (found != std::end(kHandlers)) return RiErrorHandler(found->handler);
-    report.add(Code::RIB_ARGUMENT, read.word(), "ErrorHandler", "it names no handler", "");
-}
-
-void archive_record(RequestReader& read, Handles&, Report&) {
-    RiArchiveRecord(string(read, 0), const_cast<char*>("%s"), string(read, 1));
+    if (found == std::end(kHandlers)) {
+        report.add(Code::RIB_ARGUMENT, read.word(), "ErrorHandler", "it names no handler", "");
+        return;
+    }
+    Context& context = *Context::current();
+    bool told = context.handler != nullptr;
+    RiErrorHandler(found->handler);
+    if (!told) context.handler = nullptr;
 }
 
 using Thunk = void (*)(RequestReader&, Handles&, Report&);
@@ -281,13 +283,18 @@ constexpr ThunkRow kThunkRows[] = {
 };
 
 constexpr auto kThunks = [] {
-    std::array<Thunk, std::size(kThunkRows)> thunks{};
+    std::array<Thunk, std::size(kThunkRows) + 1> thunks{};
     for (const ThunkRow& row : kThunkRows) thunks[size_t(row.request)] = row.call;
     return thunks;
 }();
-static_assert(std::ranges::find(kThunks, nullptr) == kThunks.end(), "a row for each request");
+static_assert(std::ranges::count(kThunks, nullptr) == 1, "a row for each request of RIB");
 
 }  // namespace
+
+const Request* find_called(std::string_view name) {
+    const Request* request = find_request(name);
+    return request && kThunks[size_t(*request)] ? request : nullptr;
+}
 
 void call_request(RequestReader& read, Handles& handles, Report& report) {
     kThunks[size_t(read.request())](read, handles, report);

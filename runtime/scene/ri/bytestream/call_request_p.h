@@ -18,6 +18,8 @@ struct Handles {
     HandleMap lights, objects;
 };
 
+// The request of that name; null: RIB has none. ArchiveRecord is of C alone.
+const Request* find_called(std::string_view name);
 // Calls the function of a request that was read.
 void call_request(RequestReader& read, Handles& handles, Report& report);
 

@@ -20,7 +20,7 @@ constexpr Request kNeedPoints[] = {
     Request::PatchMesh, Request::PointsGeneralPolygons, Request::NuPatch,        Request::Points,
     Request::Curves,    Request::SubdivisionMesh};
 
-constexpr size_t kMostParameters = 4096;
+constexpr size_t kMostParameters = 4096, kLongestName = 4096;
 
 const PlaceRow* find_place(std::string_view name) {
     auto found = std::ranges::find(kPlaces, name, &PlaceRow::name);
@@ -93,7 +93,10 @@ Outcome RequestReader::read_parameter() {
     Token token = lexer_.take();
     ReadParameter read{token.text.data(), {}, {}, {}, token};
     std::string_view shader = arguments_.empty() || values_.empty() ? "" : values_[0].string();
-    auto declaration = context_.resolve(request_, shader, token.text, read.name);
+    // A binary stream may name a long string again and again by three bytes.
+    std::optional<Declaration> declaration;
+    if (token.text.size() <= kLongestName)
+        declaration = context_.resolve(request_, shader, token.text, read.name);
     if (!declaration) {
         report_.add(Code::RIB_TOKEN_UNKNOWN, token, name(), shown(token.text));
         TokenKind next = lexer_.peek().kind;

@@ -70,7 +70,7 @@ class Stream {
 };
 
 bool is_request(std::string_view word) {
-    return word == "version" || find_request(word);
+    return word == "version" || find_called(word);
 }
 
 bool Stream::read() {
@@ -94,7 +94,7 @@ bool Stream::read() {
 
 void Stream::request(const Token& word) {
     context_.where = report_.place(word);
-    const Request* request = find_request(word.text);
+    const Request* request = find_called(word.text);
     if (!request) return word.text == "version" ? version(word) : unknown(word);
     known_ = true;
     Outcome outcome = reader_.read(*request, word);

@@ -2,38 +2,28 @@
 #include "runtime/scene/ri/bytestream/write_stream.h"
 
 #include <algorithm>
-#include <cstring>
 
+#include "runtime/scene/ri/bytestream/basis_names_p.h"
 #include "runtime/scene/ri/bytestream/stream_words_p.h"
-#include "runtime/scene/ri/calls/ri.h"
 
 namespace kinora::ri {
 namespace {
 
 constexpr std::string_view kHeading = "##RenderMan RIB-Structure 1.1\nversion 3.03\n";
 
-struct BasisName {
-    const RtBasis& basis;
-    std::string_view name;
-};
-const BasisName kBasisNames[] = {
-    {RiBezierBasis, "bezier"},   {RiBSplineBasis, "b-spline"}, {RiCatmullRomBasis, "catmull-rom"},
-    {RiHermiteBasis, "hermite"}, {RiPowerBasis, "power"},
-};
-
-std::string_view basis_name(std::span<const float> matrix) {
-    for (const BasisName& row : kBasisNames)
-        if (matrix.size_bytes() == sizeof row.basis &&
-            std::memcmp(matrix.data(), row.basis, sizeof row.basis) == 0)
-            return row.name;
-    return "";
-}
-
 bool opens(Request request) {
     return row(request).name.ends_with("Begin");
 }
 bool closes(Request request) {
     return row(request).name.ends_with("End");
+}
+// Behind an inline declaration a blank would end the name, or be left out, and a bracket be part of
+// the type.
+bool fits_inline(std::string_view name) {
+    constexpr std::string_view kBlanks = " \t\n\v\f\r";
+    auto blank = [&](char c) { return kBlanks.find(c) != kBlanks.npos; };
+    return !name.empty() && !blank(name.front()) && !blank(name.back()) && name[0] != '[' &&
+           name.find(' ') == name.npos;
 }
 // Between the parts of a condition.
 bool parts(Request request) {
@@ -80,14 +70,20 @@ StreamWriter::StreamWriter(StreamForm form, Write write)
 
 StreamWriter::~StreamWriter() = default;
 
-// Names of the interface stand alone, unless the stream gives them another meaning.
+// "Surface:wood:grain" is "grain" of one shader.
+void StreamWriter::note_declaration(const Call& call) {
+    std::string_view name = call.arguments[0].string();
+    if (auto declaration = parse_declaration(call.arguments[1].string()))
+        declared_.declare(name, *declaration);
+    size_t colon = name.rfind(':');
+    if (colon != name.npos) scoped_.emplace(name.substr(colon + 1));
+}
+
 std::string StreamWriter::token(const Parameter& parameter) const {
-    const Declaration* standard = Declarations::standard().find(parameter.name);
-    bool known =
-        standard && *standard == parameter.declaration && !redeclared_.contains(parameter.name);
-    // An inline declaration has no room for blanks in a name; it was declared before.
-    bool blank = parameter.name.find(' ') != std::string_view::npos || parameter.name.empty();
-    if (known || blank) return std::string(parameter.name);
+    const Declaration* known = declared_.find(parameter.name);
+    if (!known) known = Declarations::standard().find(parameter.name);
+    bool same = known && *known == parameter.declaration && !scoped_.contains(parameter.name);
+    if (same || !fits_inline(parameter.name)) return std::string(parameter.name);
     return declaration_text(parameter.declaration) + ' ' + std::string(parameter.name);
 }
 
@@ -140,10 +136,7 @@ void StreamWriter::call(const Call& call) {
         words.end_request();
         if (opens(call.request) || parts(call.request)) ++depth_;
     }
-    if (call.request == Request::Declare) {
-        std::string_view name = call.arguments[0].string();
-        redeclared_.emplace(name.substr(name.rfind(':') + 1));  // npos + 1 is 0
-    }
+    if (call.request == Request::Declare) note_declaration(call);
     write_(words.text);
     words.text.clear();
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -29,12 +28,14 @@ class StreamWriter : public CallSink {
   private:
     void add_argument(char letter, const Values& values);
     void add_arguments(const Call& call);
+    void note_declaration(const Call& call);
     std::string token(const Parameter& parameter) const;
 
     std::unique_ptr<StreamWords> words_;
     Write write_;
     int depth_ = 0;
-    std::set<std::string, std::less<>> redeclared_;  // names that Declare has given a meaning
+    Declarations declared_;
+    std::set<std::string, std::less<>> scoped_;  // declared for some shaders alone, too
 };
 
 }  // namespace kinora::ri
