@@ -110,7 +110,7 @@ Grid sample_grid(const Sheet& sheet, const Fineness& fineness) {
 }
 
 void add_triangle(Grid& grid, uint32_t a, uint32_t b, uint32_t c) {
-    constexpr double kNoHeight = 1e-14;  // of the longest edge
+    constexpr double kNoHeight = 1e-11;  // of the longest edge
     const dvec3 p = grid.place(a), q = grid.place(b), r = grid.place(c);
     const dvec3 pq = q - p, pr = r - p, qr = r - q;
     const double longest = std::max({glm::dot(pq, pq), glm::dot(pr, pr), glm::dot(qr, qr)});

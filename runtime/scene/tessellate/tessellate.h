@@ -25,7 +25,8 @@ struct TessellationLimits {
 
 // Semantics of the result's attributes, beside NORMAL (set 0) and TEXCOORD (set 0, stride 2: s, t):
 // UV (stride 2: the surface's own parameters), and every variable by its name. All have entries by
-// corner. Places are those of the formula, to rounding of doubles.
+// corner. Places are those of the formula, to rounding of doubles; where loops cut triangles, in
+// the triangles.
 inline constexpr const char* kSurfaceParameters = "UV";
 
 struct Tessellation {
