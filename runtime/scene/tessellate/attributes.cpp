@@ -203,6 +203,21 @@ class Attributes {
         return result;
     }
 
+    static void append(const SampleBlend& blend, uint32_t stride, bool unit,
+                       std::vector<float>& values) {
+        constexpr double kLeastLength = 1e-6;  // of opposite normals' mean
+        double sums[kMostComponents] = {}, square = 0;
+        for (uint32_t c = 0; c < stride; ++c) {
+            for (int k = 0; k < 3; ++k)
+                sums[c] += blend.weight[k] * values[size_t(blend.sample[k]) * stride + c];
+            square += sums[c] * sums[c];
+        }
+        const double length = unit ? std::sqrt(square) : 1;
+        for (uint32_t c = 0; c < stride; ++c)
+            values.push_back(length > kLeastLength ? float(sums[c] / length)
+                                                   : values[size_t(blend.sample[0]) * stride + c]);
+    }
+
     // An attribute of samples' values; those that triangles use, each once.
     VertexAttribute entries(std::string semantic, uint32_t stride, std::vector<float> values,
                             float tolerance) const {
@@ -210,14 +225,7 @@ class Attributes {
         const bool unit = semantic == "NORMAL";
         for (const SampleBlend& blend : grid_.blends) {
             first.push_back(uint32_t(first.size()));
-            double sums[kMostComponents] = {}, square = 0;
-            for (uint32_t c = 0; c < stride; ++c) {
-                for (int k = 0; k < 3; ++k)
-                    sums[c] += blend.weight[k] * values[size_t(blend.sample[k]) * stride + c];
-                square += sums[c] * sums[c];
-            }
-            const double scale = unit && square > 0 ? 1 / std::sqrt(square) : 1;
-            for (uint32_t c = 0; c < stride; ++c) values.push_back(float(scale * sums[c]));
+            append(blend, stride, unit, values);
         }
         VertexAttribute result{std::move(semantic), 0, stride, {}, {}};
         result.corners.reserve(grid_.corners.size());
