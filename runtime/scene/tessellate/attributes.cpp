@@ -19,8 +19,8 @@ constexpr float kSameValue = 1e-6f;   // of the value
 size_t value_count(const CurvedSurface& surface, const Sheet& sheet, VariableRate rate) {
     const Direction &u = sheet.u, &v = sheet.v;
     const size_t vertices = is_quadric(surface.kind) ? 4 : size_t(u.points) * v.points;
-    const size_t counts[] = {1, size_t(u.segments) * v.segments, size_t(u.corners()) * v.corners(),
-                             vertices};
+    const size_t corners = size_t(u.corners()) * v.corners();
+    const size_t counts[] = {1, size_t(u.segments) * v.segments, corners, vertices, corners};
     return counts[size_t(rate)];
 }
 
@@ -64,7 +64,8 @@ class Attributes {
     std::vector<float> samples_of(const SurfaceVariable& variable) const {
         if (variable.rate == VariableRate::Vertex)
             return sheet_.blend(variable.values, variable.components, grid_.u, grid_.v);
-        if (variable.rate == VariableRate::Varying) return varying(variable);
+        if (variable.rate != VariableRate::Constant && variable.rate != VariableRate::Uniform)
+            return varying(variable);
         std::vector<float> values;
         values.reserve(grid_.samples() * variable.components);
         for (uint32_t k = 0; k < grid_.samples(); ++k) {

@@ -43,7 +43,7 @@ Tessellation tessellate(const CurvedSurface& surface, const PictureScale& scale,
     Tessellation result;
     std::unique_ptr<Sheet> sheet = make_sheet(surface);
     if (!sheet || limits.triangles < 2) return result;
-    const PixelMeasure measure(*sheet, scale);
+    const PixelMeasure measure(scale, [&] { return largest_extent(*sheet); });
     const Fineness fineness = choose_fineness(*sheet, measure, limits);
     Grid grid = sample_grid(*sheet, fineness);
     if (surface.kind == CurvedKind::Nurbs && !surface.trims.empty())
