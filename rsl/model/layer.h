@@ -32,7 +32,7 @@ struct Layer {
     // The shader has run already, on the mesh's vertices: only its parameters are known here, for
     // displacement(); those it wrote come as Varying bindings.
     bool done = false;
-    std::string space;  // the named one that "shader" means here; "": the object's
+    std::string space = {};  // the named one that "shader" means here; "": the object's
 };
 
 }  // namespace kinora::rsl

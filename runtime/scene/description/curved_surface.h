@@ -14,8 +14,9 @@
 namespace kinora {
 
 // How many values a surface has of a variable: one; one a patch (u fastest); one a corner of
-// patches; one a control point, which the basis blends as it does places.
-enum class VariableRate : uint8_t { Constant, Uniform, Varying, Vertex };
+// patches; one a control point, which the basis blends as it does places; one a corner of each face
+// of a subdivision mesh, and as Varying elsewhere.
+enum class VariableRate : uint8_t { Constant, Uniform, Varying, Vertex, FaceVarying };
 
 struct SurfaceVariable {
     std::string name;  // "Cs", "dirt"; "s", "t" and "st" are texture coordinates, "N" normals
@@ -68,6 +69,18 @@ struct CurvedSurface {
     // over the whole surface, where no variable gives them.
     double corners[8] = {0, 0, 1, 0, 0, 1, 1, 1};
     bool reversed = false;  // its front is the side that dP/du x dP/dv points away from
+    std::vector<SurfaceVariable> variables;
+};
+
+// A Catmull-Clark mesh. Uniform variables have one value a face, varying and vertex ones one a
+// point, facevarying ones one an index.
+struct SubdivisionSurface {
+    std::vector<uint32_t> face_sizes;
+    std::vector<uint32_t> indices;  // of the faces' points, one face behind the other
+    std::vector<dvec3> points;
+    bool draw_boundary = false;  // without it faces with a point on the boundary are not there
+    bool sharp_corners = true;   // points of one face alone stay where they are
+    bool reversed = false;       // the front's normal is not that of counter-clockwise faces
     std::vector<SurfaceVariable> variables;
 };
 

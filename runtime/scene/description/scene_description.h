@@ -173,7 +173,7 @@ struct ShaderUse {
     std::vector<ParamSource> params;
     bool linear_inputs = false;  // reads kLinearColor in place of COLOR where there is one
     bool untinted = false;       // Cs is 1, whatever colours the mesh has
-    std::string space;           // the id of the node whose space is "shader"; "": the object's
+    std::string space = {};      // the id of the node whose space is "shader"; "": the object's
 
     // What a parameter is bound to; null: to nothing.
     const ParamSource* find(std::string_view name) const {

@@ -19,8 +19,8 @@ constexpr float kSameValue = 1e-6f;   // of the value
 size_t value_count(const CurvedSurface& surface, const Sheet& sheet, VariableRate rate) {
     const Direction &u = sheet.u, &v = sheet.v;
     const size_t vertices = is_quadric(surface.kind) ? 4 : size_t(u.points) * v.points;
-    const size_t counts[] = {1, size_t(u.segments) * v.segments, size_t(u.corners()) * v.corners(),
-                             vertices};
+    const size_t corners = size_t(u.corners()) * v.corners();
+    const size_t counts[] = {1, size_t(u.segments) * v.segments, corners, vertices, corners};
     return counts[size_t(rate)];
 }
 
@@ -64,7 +64,8 @@ class Attributes {
     std::vector<float> samples_of(const SurfaceVariable& variable) const {
         if (variable.rate == VariableRate::Vertex)
             return sheet_.blend(variable.values, variable.components, grid_.u, grid_.v);
-        if (variable.rate == VariableRate::Varying) return varying(variable);
+        if (variable.rate != VariableRate::Constant && variable.rate != VariableRate::Uniform)
+            return varying(variable);
         std::vector<float> values;
         values.reserve(grid_.samples() * variable.components);
         for (uint32_t k = 0; k < grid_.samples(); ++k) {
@@ -203,6 +204,21 @@ class Attributes {
         return result;
     }
 
+    static void append(const SampleBlend& blend, uint32_t stride, bool unit,
+                       std::vector<float>& values) {
+        constexpr double kLeastLength = 1e-6;  // of opposite normals' mean
+        double sums[kMostComponents] = {}, square = 0;
+        for (uint32_t c = 0; c < stride; ++c) {
+            for (int k = 0; k < 3; ++k)
+                sums[c] += blend.weight[k] * values[size_t(blend.sample[k]) * stride + c];
+            square += sums[c] * sums[c];
+        }
+        const double length = unit ? std::sqrt(square) : 1;
+        for (uint32_t c = 0; c < stride; ++c)
+            values.push_back(length > kLeastLength ? float(sums[c] / length)
+                                                   : values[size_t(blend.sample[0]) * stride + c]);
+    }
+
     // An attribute of samples' values; those that triangles use, each once.
     VertexAttribute entries(std::string semantic, uint32_t stride, std::vector<float> values,
                             float tolerance) const {
@@ -210,14 +226,7 @@ class Attributes {
         const bool unit = semantic == "NORMAL";
         for (const SampleBlend& blend : grid_.blends) {
             first.push_back(uint32_t(first.size()));
-            double sums[kMostComponents] = {}, square = 0;
-            for (uint32_t c = 0; c < stride; ++c) {
-                for (int k = 0; k < 3; ++k)
-                    sums[c] += blend.weight[k] * values[size_t(blend.sample[k]) * stride + c];
-                square += sums[c] * sums[c];
-            }
-            const double scale = unit && square > 0 ? 1 / std::sqrt(square) : 1;
-            for (uint32_t c = 0; c < stride; ++c) values.push_back(float(scale * sums[c]));
+            append(blend, stride, unit, values);
         }
         VertexAttribute result{std::move(semantic), 0, stride, {}, {}};
         result.corners.reserve(grid_.corners.size());

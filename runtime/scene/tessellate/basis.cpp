@@ -122,7 +122,7 @@ bool cut_spline(const PatchDirection& from, Basis& basis, Direction& direction) 
     if (basis.knots.empty() || !(from.low < from.high)) return false;
     direction.order = order;
     direction.points = n;
-    direction.lattice = std::max(kCubicLattice, order + 1);
+    direction.lattice = std::max(kCubicLattice, order - 1);
     direction.segments = n - order + 1;
     direction.spans.clear();
     for (uint32_t k = order - 1; k < n; ++k) {

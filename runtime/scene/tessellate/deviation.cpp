@@ -9,12 +9,14 @@ namespace kinora::tessellation {
 
 namespace {
 
-constexpr uint32_t kOneCellOf = 8;  // in each direction
+constexpr uint32_t kOneCellOf = 8;     // in each direction
+constexpr uint32_t kMostPatches = 64;  // with probes
 
 // For some segments of each patch their ends and middles, three lines a segment.
 std::vector<Line> probe_lines(const std::vector<uint32_t>& segments) {
     std::vector<Line> lines;
-    for (uint32_t patch = 0; patch < segments.size(); ++patch) {
+    const uint32_t step = uint32_t(segments.size() / kMostPatches) + 1;
+    for (uint32_t patch = 0; patch < segments.size(); patch += step) {
         const uint32_t n = segments[patch], probes = (n + kOneCellOf - 1) / kOneCellOf;
         for (uint32_t k = 0; k < probes; ++k) {
             const uint32_t cell = uint32_t((k + 0.5) * n / probes);

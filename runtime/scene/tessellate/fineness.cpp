@@ -13,8 +13,6 @@ namespace kinora::tessellation {
 
 namespace {
 
-// What slides along the surface moves textures, not outlines: so many times the error is allowed.
-constexpr double kSlide = 4;
 constexpr double kSmoothTurn = radians(15);    // of normals along an edge that is to be seen
 constexpr double kLargestTurn = radians(100);  // of any edge: closed surfaces stay bodies
 constexpr double kSmallEdge = 2;               // pixels: shorter ones may turn more
@@ -188,7 +186,7 @@ uint32_t patches_to_merge(const Fineness& fineness, size_t triangles) {
 
 }  // namespace
 
-PixelMeasure::PixelMeasure(const Sheet& sheet, const PictureScale& scale) {
+PixelMeasure::PixelMeasure(const PictureScale& scale, FunctionRef<double()> size) {
     if (scale.pixels > 0 && std::isfinite(scale.pixels)) {
         linear_ = dmat3(scale.to_camera);
         offset_ = dvec3(scale.to_camera[3]);
@@ -197,6 +195,11 @@ PixelMeasure::PixelMeasure(const Sheet& sheet, const PictureScale& scale) {
         near_ = scale.near > 0 ? scale.near : 1e-3;
         return;
     }
+    const double largest = size();
+    if (largest > 0) pixels_ = kPixelsWithoutPicture / largest;
+}
+
+double largest_extent(const Sheet& sheet) {
     dvec3 low(1e300), high(-1e300);
     sheet.sample(lattice_lines(sheet.u), lattice_lines(sheet.v), false,
                  [&](size_t, const Jet& jet) {
@@ -204,9 +207,8 @@ PixelMeasure::PixelMeasure(const Sheet& sheet, const PictureScale& scale) {
                      low = glm::min(low, jet.p);
                      high = glm::max(high, jet.p);
                  });
-    dvec3 size = glm::max(high - low, dvec3(0.0));
-    double largest = std::max({size.x, size.y, size.z});
-    if (largest > 0) pixels_ = kPixelsWithoutPicture / largest;
+    const dvec3 size = glm::max(high - low, dvec3(0.0));
+    return std::max({size.x, size.y, size.z});
 }
 
 // Away from the axis, what moves outwards along the ray's slope moves more in the picture.

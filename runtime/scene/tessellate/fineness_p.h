@@ -8,10 +8,14 @@
 
 namespace kinora::tessellation {
 
+// What slides along the surface moves textures, not outlines: so many times the error is allowed.
+inline constexpr double kSlide = 4;
+
 // Pixels of lengths in camera space.
 class PixelMeasure {
   public:
-    PixelMeasure(const Sheet& sheet, const PictureScale& scale);
+    // `size`: the largest of the surface's bounds, for when there is no picture.
+    PixelMeasure(const PictureScale& scale, FunctionRef<double()> size);
     dvec3 vector(dvec3 v) const { return linear_ * v; }
     dvec3 place(dvec3 p) const { return linear_ * p + offset_; }
     // Pixels of a unit, in any direction, at a place of camera space.
@@ -23,6 +27,9 @@ class PixelMeasure {
     bool orthographic_ = true;
     double pixels_ = 1, near_ = 1e-3;
 };
+
+// By the places that show how patches bend.
+double largest_extent(const Sheet& sheet);
 
 struct Fineness {
     std::vector<uint32_t> u, v;  // segments of each column and row of patches

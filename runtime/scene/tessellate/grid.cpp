@@ -110,7 +110,7 @@ Grid sample_grid(const Sheet& sheet, const Fineness& fineness) {
 }
 
 void add_triangle(Grid& grid, uint32_t a, uint32_t b, uint32_t c) {
-    constexpr double kNoHeight = 1e-14;  // of the longest edge
+    constexpr double kNoHeight = 1e-11;  // of the longest edge
     const dvec3 p = grid.place(a), q = grid.place(b), r = grid.place(c);
     const dvec3 pq = q - p, pr = r - p, qr = r - q;
     const double longest = std::max({glm::dot(pq, pq), glm::dot(pr, pr), glm::dot(qr, qr)});
@@ -136,22 +136,28 @@ void add_cell(Grid& grid, size_t i, size_t j) {
 }
 
 void fill_normals(Grid& grid) {
-    std::vector<uint32_t> without;
-    for (uint32_t corner : grid.corners)
-        if (corner < grid.samples() && grid.normals[corner] == dvec3(0.0))
-            without.push_back(corner);
-    if (without.empty()) return;
+    // The samples that a corner is made of.
+    auto each_sample = [&](uint32_t corner, auto&& f) {
+        if (corner < grid.samples()) return f(corner);
+        for (uint32_t sample : grid.blends[corner - grid.samples()].sample) f(sample);
+    };
     std::vector<uint8_t> open(grid.samples(), 0);
-    for (uint32_t sample : without) open[sample] = 1;
+    bool any = false;
+    for (uint32_t corner : grid.corners)
+        each_sample(corner, [&](uint32_t sample) {
+            if (grid.normals[sample] != dvec3(0.0)) return;
+            open[sample] = 1;
+            any = true;
+        });
+    if (!any) return;
     for (size_t k = 0; k < grid.corners.size(); k += 3) {
-        const uint32_t* corner = &grid.corners[k];
-        if (std::none_of(corner, corner + 3,
-                         [&](uint32_t c) { return c < grid.samples() && open[c]; }))
-            continue;
-        const dvec3 p = grid.place(corner[0]);
-        const dvec3 face = glm::cross(grid.place(corner[1]) - p, grid.place(corner[2]) - p);
-        for (int c = 0; c < 3; ++c)
-            if (corner[c] < grid.samples() && open[corner[c]]) grid.normals[corner[c]] += face;
+        const dvec3 p = grid.place(grid.corners[k]);
+        const dvec3 face =
+            glm::cross(grid.place(grid.corners[k + 1]) - p, grid.place(grid.corners[k + 2]) - p);
+        for (size_t c = k; c < k + 3; ++c)
+            each_sample(grid.corners[c], [&](uint32_t sample) {
+                if (open[sample]) grid.normals[sample] += face;
+            });
     }
     for (uint32_t k = 0; k < open.size(); ++k) {
         if (!open[k]) continue;

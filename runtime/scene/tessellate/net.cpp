@@ -8,6 +8,8 @@ namespace kinora::tessellation {
 
 namespace {
 
+constexpr size_t kManyPatches = 32;  // their ends show enough of how they bend
+
 // The weights of several lines, one behind the other.
 class LineWeights {
   public:
@@ -90,7 +92,8 @@ struct BlendedRow {
 class Net : public Sheet {
   public:
     bool take(const CurvedSurface& surface) {
-        if (surface.u.points == 0 || surface.points.size() / surface.u.points < surface.v.points)
+        if (surface.u.points == 0 || surface.v.points == 0 ||
+            surface.points.size() / surface.u.points < surface.v.points)
             return false;
         std::optional<Basis> basis_u = make_basis(surface.kind, surface.u, u);
         std::optional<Basis> basis_v = make_basis(surface.kind, surface.v, v);
@@ -99,7 +102,10 @@ class Net : public Sheet {
         basis_v_ = *std::move(basis_v);
         points_ = surface.points;
         rational_ = surface.rational;
-        if (rational_) u.lattice += 2, v.lattice += 2;
+        for (Direction* direction : {&u, &v}) {
+            if (rational_) direction->lattice += 2;
+            if (direction->spans.size() > kManyPatches) direction->lattice = 2;
+        }
         return true;
     }
 

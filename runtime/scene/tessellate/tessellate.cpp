@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "runtime/scene/tessellate/attributes_p.h"
+#include "runtime/scene/tessellate/trim_p.h"
 
 namespace kinora {
 
@@ -42,10 +43,13 @@ Tessellation tessellate(const CurvedSurface& surface, const PictureScale& scale,
     Tessellation result;
     std::unique_ptr<Sheet> sheet = make_sheet(surface);
     if (!sheet || limits.triangles < 2) return result;
-    const PixelMeasure measure(*sheet, scale);
+    const PixelMeasure measure(scale, [&] { return largest_extent(*sheet); });
     const Fineness fineness = choose_fineness(*sheet, measure, limits);
     Grid grid = sample_grid(*sheet, fineness);
-    add_cells(grid);
+    if (surface.kind == CurvedKind::Nurbs && !surface.trims.empty())
+        add_trimmed_cells(grid, *sheet, surface, limits.triangles);
+    else
+        add_cells(grid);
     if (grid.corners.empty()) return result;
     fill_normals(grid);
     if (surface.reversed)

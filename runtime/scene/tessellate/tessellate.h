@@ -25,7 +25,8 @@ struct TessellationLimits {
 
 // Semantics of the result's attributes, beside NORMAL (set 0) and TEXCOORD (set 0, stride 2: s, t):
 // kSurfaceParameters (stride 2: the surface's own parameters), and every variable by its name. All
-// have entries by corner. Places are those of the formula, to rounding of doubles.
+// have entries by corner. Places are those of the formula, to rounding of doubles; where loops cut
+// triangles, in the triangles.
 
 struct Tessellation {
     std::vector<dvec3> positions;

@@ -6,6 +6,7 @@
 
 #include "runtime/scene/build/instances/vertex_inputs.h"
 #include "runtime/scene/description/displacements.h"
+#include "runtime/scene/description/picture_rules.h"
 #include "runtime/scene/description/shader_library.h"
 
 namespace kinora {
