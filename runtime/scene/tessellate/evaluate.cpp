@@ -10,11 +10,11 @@ SurfacePoint evaluate(const CurvedSurface& surface, double u, double v) {
     if (!sheet) return {};
     Line a = sheet->u.locate(u), b = sheet->v.locate(v);
     Jet jet = sheet->jet(a, b);
-    if (!is_finite(jet.p) || !is_finite(jet.u) || !is_finite(jet.v)) return {};
     SurfacePoint point;
     point.p = jet.p;
     point.du = jet.u / sheet->u.parameter_rate(a);
     point.dv = jet.v / sheet->v.parameter_rate(b);
+    if (!is_finite(point.p) || !is_finite(point.du) || !is_finite(point.dv)) return {};
     point.normal = unit_normal(*sheet, a, b);
     return point;
 }
