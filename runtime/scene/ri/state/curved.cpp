@@ -46,11 +46,22 @@ void take_variables(const Call& call, CurvedSurface& surface) {
     }
 }
 
+// A basis whose weights have one sum that is not 1, as that of B-splines without its sixth. Places
+// are then what is blended over the sum; all renderers known to us have it so.
+bool is_scaled(const dmat4& basis) {
+    const dvec4 sums = basis[0] + basis[1] + basis[2] + basis[3];  // of t^3, t^2, t, 1
+    constexpr double kSame = 1e-5;
+    return std::abs(sums.x) < kSame && std::abs(sums.y) < kSame && std::abs(sums.z) < kSame &&
+           std::abs(sums.w - 1) > kSame;
+}
+
 // Points of P, of Pw, or of heights Pz over the unit square.
 bool take_points(const Call& call, CurvedSurface& surface) {
     const Parameter *p = call.find("P"), *pw = call.find("Pw"), *pz = call.find("Pz");
     const size_t count = size_t(surface.u.points) * surface.v.points;
-    surface.rational = !p && pw;
+    const bool scaled = surface.kind == CurvedKind::Bicubic &&
+                        (is_scaled(surface.u.basis) || is_scaled(surface.v.basis));
+    surface.rational = (!p && pw) || scaled;
     auto numbers = p    ? p->values.floats()
                    : pw ? pw->values.floats()
                    : pz ? pz->values.floats()
