@@ -137,6 +137,9 @@ const std::vector<Interpreter::Handler>& Interpreter::handlers() {
             &I::surface);
         set({R::ShaderLayer}, &I::shader_layer);
         set({R::ConnectShaderLayers, R::Shader}, &I::co_shader);
+        set({R::MakeTexture, R::MakeBump, R::MakeLatLongEnvironment}, &I::make_map);
+        set({R::MakeCubeFaceEnvironment}, &I::make_cube_map);
+        set({R::MakeShadow}, &I::make_shadow);
         set({R::Identity}, &I::identity);
         set({R::Transform}, &I::transform);
         set({R::ConcatTransform}, &I::concat_transform);

@@ -128,9 +128,17 @@ class Interpreter : public CallSink {
     void co_shader(const Call& call);
     std::vector<Binding>* layers_of(std::string_view type);
     Binding bind(const Call& call, size_t name_at, std::string_view kind);
-    ShaderBinding binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader) const;
+    ShaderBinding binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader);
     std::shared_ptr<const rsl::Shader> find_shader(std::string_view name);
     std::vector<std::string> folders(std::string_view kind) const;
+
+    // Maps (maps.cpp).
+    void make_map(const Call& call);
+    void make_cube_map(const Call& call);
+    void make_shadow(const Call& call);
+    std::string map_name(std::string_view parameter, const std::string& name,
+                         const rsl::Shader& shader);
+    std::string picture_file(const std::string& name) const;
 
     // Transformations (transforms.cpp).
     void identity(const Call& call);
@@ -169,7 +177,9 @@ class Interpreter : public CallSink {
     std::vector<Block> blocks_;
     std::unique_ptr<World> world_;
     std::map<int, Light> lights_;
-    std::map<std::string, dmat4, std::less<>> spaces_;  // to the camera
+    std::map<std::string, std::string, std::less<>> maps_;  // that the file makes: their pictures
+    std::set<std::string, std::less<>> shadows_;            // that it makes
+    std::map<std::string, dmat4, std::less<>> spaces_;      // to the camera
     int worlds_ = 0;
     std::optional<int> frame_;
 

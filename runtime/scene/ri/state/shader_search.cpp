@@ -42,9 +42,18 @@ std::string file_in(const fs::path& folder, const std::string& name) {
     return "";
 }
 
-// The interface's own names for what ours are called otherwise.
+// What scenes mean by a name that one of ours, with other parameters, has too.
+struct OtherName {
+    std::string_view name, ours;
+};
+constexpr OtherName kOtherNames[] = {
+    {"default", "defaultsurface"},
+    {"shadowspot", "ri_shadowspot"},
+};
 std::string_view library_name(std::string_view name) {
-    return name == "defaultsurface" || name == "default" ? "defaultsurface" : name;
+    for (const OtherName& other : kOtherNames)
+        if (other.name == name) return other.ours;
+    return name;
 }
 
 }  // namespace

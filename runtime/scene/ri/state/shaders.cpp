@@ -57,12 +57,12 @@ std::shared_ptr<const rsl::Shader> Interpreter::find_shader(std::string_view nam
     return names_nothing(name) ? nullptr : shaders_.find(name, folders("shader"));
 }
 
-ShaderBinding Interpreter::binding_of(const Call& call,
-                                      std::shared_ptr<const rsl::Shader> shader) const {
+ShaderBinding Interpreter::binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader) {
     ShaderBinding made{std::move(shader), {}, to_camera(), call.where};
     for (const Parameter& p : call.parameters) {
         ShaderArgument argument{std::string(p.name), {}, {}};
-        for (const char* text : p.values.strings()) argument.strings.emplace_back(text);
+        for (const char* text : p.values.strings())
+            argument.strings.push_back(map_name(p.name, text, *made.shader));
         if (p.declaration.type == Type::Color && !options_.to_rgb.empty()) {
             dvec3 color = rgb(p.values);
             argument.numbers = {color.x, color.y, color.z};

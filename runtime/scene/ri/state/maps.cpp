@@ -1,0 +1,77 @@
+// runtime/scene/ri/state/maps.cpp: textures, environments and shadows by the names that files give
+// them.
+#include <algorithm>
+#include <filesystem>
+
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/state/interpreter.h"
+
+namespace kinora::ri {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What renderers make of pictures, and the pictures that may lie beside it still.
+constexpr std::string_view kMade[] = {".tx", ".tex", ".txr", ".tdl", ".env", ".map"};
+constexpr std::string_view kPictures[] = {".tif", ".tiff", ".png", ".jpg", ".jpeg",
+                                          ".exr", ".tga",  ".bmp", ".sgi", ".gif"};
+
+bool is_file(const std::string& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+}
+
+bool names_shadow(std::string_view parameter) {
+    std::string lower(parameter);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    return lower.find("shadow") != lower.npos || lower.find("shd") != lower.npos;
+}
+
+}  // namespace
+
+void Interpreter::make_map(const Call& call) {
+    maps_.insert_or_assign(std::string(call.arguments[1].string()),
+                           std::string(call.arguments[0].string()));
+}
+
+void Interpreter::make_cube_map(const Call&) {
+    not_done("MakeCubeFaceEnvironment", "the map is not made");
+}
+
+void Interpreter::make_shadow(const Call& call) {
+    shadows_.insert(std::string(call.arguments[1].string()));
+}
+
+// The file of that name along the search path; else the picture that it was made of. "": none.
+std::string Interpreter::picture_file(const std::string& name) const {
+    for (const std::string& folder : folders("texture"))
+        if (is_file(folder + name)) return folder + name;
+    fs::path stem = name;
+    if (std::ranges::find(kMade, stem.extension().string()) == std::end(kMade)) return "";
+    for (std::string_view suffix : kPictures) {
+        stem.replace_extension(suffix);
+        for (const std::string& folder : folders("texture"))
+            if (is_file(folder + stem.string())) return folder + stem.string();
+    }
+    return "";
+}
+
+// What a string of a shader's parameters means. Depth maps of a file that renders them itself, and
+// those that are not there, are traced.
+std::string Interpreter::map_name(std::string_view parameter, const std::string& name,
+                                  const rsl::Shader& shader) {
+    if (name.empty() || name == "raytrace") return name;
+    if (auto made = maps_.find(name); made != maps_.end()) {
+        std::string picture = picture_file(made->second);
+        return picture.empty() ? made->second : picture;
+    }
+    bool made_here = shadows_.contains(name);
+    std::string file = made_here ? "" : picture_file(name);
+    if (!file.empty()) return file;
+    bool shadow = shader.kind == rsl::ShaderKind::Light && names_shadow(parameter);
+    if (!made_here && !shadow) return name;
+    if (told_.insert("shadow " + name).second) report(Code::RI_SHADOW_TRACED, name);
+    return "raytrace";
+}
+
+}  // namespace kinora::ri
