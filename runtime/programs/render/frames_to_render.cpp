@@ -51,7 +51,9 @@ std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRa
                                            const Scene& scene) {
     const double start = scene.options.start_time, end = scene.options.end_time;
     FrameTimes list;
-    if (options.time) {
+    if (const auto& own = scene.description->file_picture) {
+        list.emplace_back(own->number, start);
+    } else if (options.time) {
         list.emplace_back(std::llround(*options.time * rate.value()), *options.time);
     } else if (options.frames) {
         for (int64_t frame : *options.frames) list.emplace_back(frame, rate.time(frame));

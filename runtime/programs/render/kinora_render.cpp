@@ -32,10 +32,12 @@
 #include "runtime/programs/render/run_report.h"
 #include "runtime/programs/render/stats.h"
 #include "runtime/programs/render/targeted.h"
+#include "runtime/programs/render/worlds.h"
 #include "runtime/programs/tradeoff/asserts.h"
 #include "runtime/programs/tradeoff/tradeoff.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/texture_store.h"
+#include "runtime/scene/ri/import/import.h"
 
 namespace kinora {
 
@@ -579,6 +581,15 @@ bool names_file(const char* word) {
 
 }  // namespace
 
+// One picture after another; the run ends with the first that fails, unless --keep-going is given.
+static int render_worlds(const RenderOptions& options) {
+    FrameCodes codes(options.keep_going);
+    std::vector<RenderOptions> runs = runs_of_worlds(options);
+    for (const RenderOptions& run : runs)
+        if (!codes.go_on_after(Render(run).run())) break;
+    return runs.empty() ? int(kExitUsage) : codes.code();
+}
+
 }  // namespace kinora
 
 int main(int argc, char** argv) {
@@ -592,6 +603,7 @@ int main(int argc, char** argv) {
         kinora::RenderOptions options;
         if (std::optional<int> code = kinora::parse_render_options(argc, argv, options))
             return *code;
-        return kinora::Render(options).run();
+        if (!kinora::is_rib(options.scene)) return kinora::Render(options).run();
+        return kinora::render_worlds(options);
     });
 }

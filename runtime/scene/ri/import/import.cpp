@@ -2,6 +2,7 @@
 // interpreter.
 #include "runtime/scene/ri/import/import.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "runtime/base/file_extension.h"
@@ -81,17 +82,31 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
     return sound;
 }
 
+std::vector<int> worlds_of(const SceneSource& source) {
+    std::vector<int> numbers;
+    ImportOptions options;
+    options.world = ImportOptions::kNoWorld;
+    Diagnostics unheard;  // they come when the world itself is read
+    read_rib(source, options, unheard, [&](SceneDescription&& world) {
+        numbers.push_back(world.file_picture->number);
+        return true;
+    });
+    return numbers;
+}
+
 std::optional<SceneDescription> import_rib(const SceneSource& source, const ImportOptions& options,
                                            Diagnostics& diagnostics) {
+    ImportOptions wanted = options;
+    if (wanted.world < 0) wanted.world = std::max(int(worlds_of(source).size()) - 1, 0);
     std::optional<SceneDescription> found;
     int seen = 0;
-    bool sound = read_rib(source, options, diagnostics, [&](SceneDescription&& world) {
+    bool sound = read_rib(source, wanted, diagnostics, [&](SceneDescription&& world) {
         found = std::move(world);
-        return ++seen <= options.world || options.world < 0;
+        return ++seen <= wanted.world;
     });
-    if (sound && (!seen || seen <= options.world)) {
+    if (sound && seen <= wanted.world) {
         if (seen)
-            diagnostics.report(Code::RIB_WORLD_UNKNOWN, Location{}, options.world + 1, seen);
+            diagnostics.report(Code::RIB_WORLD_UNKNOWN, Location{}, wanted.world + 1, seen);
         else
             diagnostics.report(Code::RIB_NO_WORLD, Location{}, source.path);
         found.reset();

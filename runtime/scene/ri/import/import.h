@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/import_options.h"
@@ -19,6 +20,9 @@ bool is_rib(const SceneSource& source);
 // along its search paths.
 bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnostics& diagnostics,
               const std::function<bool(SceneDescription&& world)>& take);
+
+// The frame number of each world block, in order.
+std::vector<int> worlds_of(const SceneSource& source);
 
 // The world block ImportOptions::world. Nothing: there is none, or the file
 // cannot be read; findings say why.

@@ -20,6 +20,8 @@ constexpr QuadricRow kQuadrics[] = {
 
 VariableRate rate_of(StorageClass storage) {
     switch (storage) {
+        case StorageClass::FaceVarying:
+            return VariableRate::FaceVarying;
         case StorageClass::Constant:
             return VariableRate::Constant;
         case StorageClass::Uniform:
@@ -31,18 +33,27 @@ VariableRate rate_of(StorageClass storage) {
     }
 }
 
-void take_variables(const Call& call, CurvedSurface& surface) {
+std::vector<SurfaceVariable> variables_of(const Call& call) {
+    std::vector<SurfaceVariable> variables;
     for (const Parameter& p : call.parameters) {
         auto numbers = p.values.floats();
         if (p.name == "P" || p.name == "Pw" || p.name == "Pz" || numbers.empty()) continue;
         SurfaceVariable made;
         made.name = p.name == "Np" ? "N" : std::string(p.name);
         made.rate = rate_of(p.declaration.storage);
-        if (is_quadric(surface.kind) && made.rate == VariableRate::Vertex)
-            made.rate = VariableRate::Varying;
         made.components = p.declaration.elements() * components(p.declaration.type, 3);
         made.values.assign(numbers.begin(), numbers.end());
-        surface.variables.push_back(std::move(made));
+        variables.push_back(std::move(made));
+    }
+    return variables;
+}
+
+void take_variables(const Call& call, CurvedSurface& surface) {
+    surface.variables = variables_of(call);
+    for (SurfaceVariable& variable : surface.variables) {
+        bool corners = is_quadric(surface.kind) && variable.rate == VariableRate::Vertex;
+        if (corners || variable.rate == VariableRate::FaceVarying)
+            variable.rate = VariableRate::Varying;
     }
 }
 
@@ -125,6 +136,44 @@ std::optional<CurvedSurface> curved_surface(const Call& call, const Attributes& 
     if (!is_quadric(surface.kind) && !take_points(call, surface)) return std::nullopt;
     take_variables(call, surface);
     return surface;
+}
+
+SubdivisionSurface subdivision_surface(const Call& call, const Attributes& attributes) {
+    SubdivisionSurface surface;
+    surface.reversed = is_front_reversed(attributes);
+    for (int size : call.arguments[1].integers())
+        surface.face_sizes.push_back(uint32_t(std::max(size, 0)));
+    uint32_t most = 0;
+    for (int index : call.arguments[2].integers()) {
+        surface.indices.push_back(uint32_t(std::max(index, 0)));
+        most = std::max(most, surface.indices.back());
+    }
+    surface.points = points_of(call);
+    if (most >= surface.points.size()) surface.points.clear();
+    auto tags =
+        call.arguments.size() > 3 ? call.arguments[3].strings() : std::span<const char* const>();
+    auto counts = call.arguments.size() > 4 ? call.arguments[4].integers() : std::span<const int>();
+    size_t integer = 0;
+    for (size_t tag = 0; tag < tags.size(); ++tag) {
+        int count = 2 * tag < counts.size() ? std::max(counts[2 * tag], 0) : 0;
+        auto integers = call.arguments[5].integers();
+        if (tags[tag] == std::string_view("interpolateboundary")) {
+            int value = count > 0 && integer < integers.size() ? integers[integer] : 1;
+            surface.draw_boundary = value != 0;
+            surface.sharp_corners = value != 2;
+        }
+        integer += size_t(count);
+    }
+    surface.variables = variables_of(call);
+    return surface;
+}
+
+bool has_creases(const Call& call) {
+    if (call.arguments.size() <= 3) return false;
+    auto tags = call.arguments[3].strings();
+    return std::ranges::any_of(tags, [](std::string_view tag) {
+        return tag == "crease" || tag == "corner" || tag == "hole";
+    });
 }
 
 }  // namespace kinora::ri

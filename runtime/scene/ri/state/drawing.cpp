@@ -2,6 +2,7 @@
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/state/interpreter.h"
 #include "runtime/scene/ri/state/primitives.h"
+#include "runtime/scene/tessellate/subdivide.h"
 #include "runtime/scene/tessellate/tessellate.h"
 
 namespace kinora::ri {
@@ -23,7 +24,7 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
 }  // namespace
 
 bool Interpreter::in_detail() const {
-    return attributes_.in_detail_range && attributes_.visible_to_camera;
+    return is_drawn() && attributes_.in_detail_range && attributes_.visible_to_camera;
 }
 
 void Interpreter::primitive(const Call& call) {
@@ -35,7 +36,13 @@ void Interpreter::primitive(const Call& call) {
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, attributes_);
     } else if (call.request == Request::SubdivisionMesh) {
-        return not_done("SubdivisionMesh", "it is not drawn");
+        SubdivisionSurface surface = subdivision_surface(call, attributes_);
+        if (surface.points.empty())
+            return report(Code::RI_DATA_MISSING, row(call.request).name, "P");
+        if (call.arguments[0].string() != "catmull-clark")
+            not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
+        if (has_creases(call)) not_done("SubdivisionMesh", "creases, corners and holes are smooth");
+        mesh = mesh_of(subdivide(surface, world_->scale(to_camera())));
     } else if (auto surface = curved_surface(call, attributes_)) {
         mesh = mesh_of(tessellate(*surface, world_->scale(to_camera())));
     } else {

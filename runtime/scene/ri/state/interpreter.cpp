@@ -174,6 +174,7 @@ void Interpreter::call(const Call& call) {
 
 void Interpreter::dispatch(const Call& call) {
     const RequestClass kind = row(call.request).kind;
+    if (lists_alone() && kind != RequestClass::Block && kind != RequestClass::Anywhere) return;
     if (kind == RequestClass::Option && in_world())
         return report(Code::RI_OPTION_IN_WORLD, row(call.request).name);
     if (kind == RequestClass::Primitive && !in_world())
@@ -188,6 +189,7 @@ void Interpreter::not_done(const char* what, std::string_view why) {
 const Declaration* Interpreter::declared_by_shader(Request request, std::string_view shader,
                                                    std::string_view token) {
     const rsl::ShaderParameter* formal = nullptr;
+    if (lists_alone()) return nullptr;
     if (is_shader_request(request)) {
         formal = formal_of(find_shader(shader).get(), token);
     } else if (row(request).kind == RequestClass::Primitive) {

@@ -30,6 +30,7 @@ struct InterpreterHost {
 
 class Interpreter : public CallSink {
   public:
+    // With ImportOptions::world >= 0 the other worlds are without primitives.
     // `path`: of the file that the calls come from, or of one that would stand where the program
     // runs.
     Interpreter(std::string path, const ImportOptions& options, InterpreterHost host,
@@ -163,6 +164,8 @@ class Interpreter : public CallSink {
 
     dmat4 to_camera() const { return camera_from_world_ * transform_; }
     bool in_world() const { return world_ != nullptr; }
+    bool lists_alone() const { return import_.world == ImportOptions::kNoWorld; }
+    bool is_drawn() const { return import_.world < 0 || import_.world == worlds_ - 1; }
 
     std::string path_;
     ImportOptions import_;

@@ -19,6 +19,12 @@ std::optional<MeshDefinition> polygon_mesh(const Call& call, const Attributes& a
 // Quadrics, patches and NURBS. Nothing: they have no points, or their numbers make none.
 std::optional<CurvedSurface> curved_surface(const Call& call, const Attributes& attributes);
 
+// SubdivisionMesh, without its tags but "interpolateboundary". Without points where P does not give
+// all that the faces name.
+SubdivisionSurface subdivision_surface(const Call& call, const Attributes& attributes);
+// Whether tags make some of it sharper or leave faces out.
+bool has_creases(const Call& call);
+
 // The patches of Geometry "teapot".
 std::vector<CurvedSurface> teapot(const Attributes& attributes);
 

@@ -103,6 +103,7 @@ World::World(const Options& options, const std::string& path, const ImportOption
     limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
     out_.world_space = turned_z(camera_from_world);
     camera_.picture.number = number;
+    out_.start_time = out_.end_time = options.shutter_open;
     add_camera();
 }
 
