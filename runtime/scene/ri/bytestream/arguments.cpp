@@ -1,8 +1,12 @@
 // runtime/scene/ri/bytestream/arguments.cpp: the arguments of a request, by its row in
 // requests.def, in all forms that RIB has for them.
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "runtime/scene/ri/bytestream/basis_names_p.h"
 #include "runtime/scene/ri/bytestream/request_reader_p.h"

@@ -1,6 +1,8 @@
 // runtime/scene/ri/bytestream/parameters.cpp: the parameter list of a request, and as many values
 // as its declarations and counts ask for.
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "runtime/scene/ri/bytestream/consistency_p.h"
 #include "runtime/scene/ri/bytestream/request_reader_p.h"

@@ -1,6 +1,7 @@
 // runtime/scene/ri/bytestream/read_stream.cpp: streams, request by request.
 #include "runtime/scene/ri/bytestream/read_stream.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>

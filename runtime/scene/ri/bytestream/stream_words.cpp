@@ -7,6 +7,7 @@
 #include <bitset>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "collada/text/number_run.h"
 
