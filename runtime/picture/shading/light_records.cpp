@@ -595,6 +595,7 @@ std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& lo
 
 void LightRecords::report_aims(Diagnostics& diagnostics) const {
     const Scene& scene = frame_.scene;
+    if (scene.description->file_picture) return;  // its lights are aimed by parameters of their own
     for (size_t l = 0; l < scene.lights.size(); ++l) {
         const LightSource& light = scene.lights[l];
         const ShaderInstance& look = *scene.shader_instances[light.look];

@@ -33,6 +33,12 @@ bool needs_points(Request request) {
     return std::ranges::find(kNeedPoints, request) != std::end(kNeedPoints);
 }
 
+// Their names are each renderer's own; those of others change nothing.
+bool is_renderers_own(Request request) {
+    return request == Request::Option || request == Request::Attribute ||
+           request == Request::Hider || request == Request::Display;
+}
+
 Values::Kind kind_of(Type type) {
     if (type == Type::Integer) return Values::Kind::Integers;
     return type == Type::String ? Values::Kind::Strings : Values::Kind::Floats;
@@ -100,7 +106,8 @@ Outcome RequestReader::read_parameter() {
     if (token.text.size() <= kLongestName)
         declaration = context_.resolve(request_, shader, token.text, read.name);
     if (!declaration) {
-        report_.add(Code::RIB_TOKEN_UNKNOWN, token, name(), shown(token.text));
+        if (!is_renderers_own(request_))
+            report_.add(Code::RIB_TOKEN_UNKNOWN, token, name(), shown(token.text));
         TokenKind next = lexer_.peek().kind;
         if (next == TokenKind::Word || next == TokenKind::End) return Outcome::LeftOut;
         return skip_value();

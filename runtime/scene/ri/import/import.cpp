@@ -62,8 +62,10 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
     }
     ri::BytestreamReader* reader = nullptr;
     ri::InterpreterHost host;
+    bool stopped = false;
     host.take_world = [&](SceneDescription&& world) {
-        if (!take(std::move(world))) reader->stop();
+        stopped = stopped || !take(std::move(world));
+        if (stopped) reader->stop();
     };
     host.read_archive = [&](const std::string& path) {
         std::optional<std::string> archive = content_of(path);
@@ -78,7 +80,7 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
     ri::BytestreamReader stream(context);
     reader = &stream;
     bool sound = stream.read(source.path, std::move(*content));
-    interpreter.finish();
+    if (!stopped) interpreter.finish();
     return sound;
 }
 
