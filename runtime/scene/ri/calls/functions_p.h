@@ -23,6 +23,8 @@ struct Pairs {
 
 // No context was begun on this thread: RIE_NOTSTARTED.
 void tell_not_started();
+// The context of this thread, or that of calls which need none.
+Context& current_or_outside();
 
 void send(Request request, std::initializer_list<Values> arguments, RtInt n = 0,
           RtToken tokens[] = nullptr, RtPointer values[] = nullptr, RtInt vertices = 0);
