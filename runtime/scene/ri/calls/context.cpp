@@ -81,6 +81,19 @@ Values values_at(const void* pointer, const Declaration& declaration, size_t cou
     }
 }
 
+// Arrays whose length is not counted, and so not 0 but for a null pointer.
+bool lacks_array(Request request, std::span<const Values> arguments) {
+    size_t at = 0;
+    for (char letter : row(request).arguments) {
+        if (letter == '?') continue;
+        if (letter == '*' || at == arguments.size()) break;
+        const Values& values = arguments[at++];
+        bool fixed = std::string_view("mbcx").find(letter) != std::string_view::npos;
+        if (fixed && values.size() == 0) return true;
+    }
+    return false;
+}
+
 bool saves_attributes(Request request) {
     return request == Request::FrameBegin || request == Request::WorldBegin ||
            request == Request::AttributeBegin || request == Request::SolidBegin ||
@@ -131,16 +144,17 @@ void Context::tell(const Finding& finding) {
     handler(told.code, told.severity, message.data());
 }
 
-// The handler may make calls, which find more.
+// The handler may make calls; it is not told what is wrong with them, which would not end.
 void Context::tell() {
+    if (telling_ || told_ >= diagnostics_.findings().size()) return;
     Busy busy(*this);
-    while (told_ < diagnostics_.findings().size()) {
-        const Finding finding = diagnostics_.findings()[told_++];
-        tell(finding);
-    }
-    if (!for_c_program) return;
-    diagnostics_.clear();
-    told_ = 0;
+    telling_ = true;
+    const std::vector<Finding> news(diagnostics_.findings().begin() + std::ptrdiff_t(told_),
+                                    diagnostics_.findings().end());
+    for (const Finding& finding : news) tell(finding);
+    telling_ = false;
+    if (for_c_program) diagnostics_.clear();
+    told_ = diagnostics_.findings().size();
 }
 
 // Where memory ends there may be too little for a finding.
@@ -177,6 +191,8 @@ void Context::send(Request request, std::span<const Values> arguments, int n, Rt
 
 void Context::send_contained(Request request, std::span<const Values> arguments, int n,
                              RtToken tokens[], RtPointer values[], uint32_t vertices) {
+    if (lacks_array(request, arguments))
+        return error(Code::RI_DATA_MISSING, row(request).name, "values");
     CountedCall counted = count_values(request, arguments, counts_.back(), vertices);
     if (!counted.why.empty()) return error(Code::RI_COUNTS, row(request).name, counted.why);
     // A sink may read an archive during this call, which sends others.

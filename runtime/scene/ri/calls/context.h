@@ -118,6 +118,7 @@ class Context {
     std::unique_ptr<CallSink> sink_;
     Diagnostics& diagnostics_;
     size_t told_ = 0;  // of the findings
+    bool telling_ = false;
     int busy_ = 0;
     Declarations declarations_;
     int handles_ = 0;

@@ -18,6 +18,12 @@ void tell_not_started() {
     outside().context.error(Code::RI_NOT_STARTED);
 }
 
+void tell_missing(Request request, const char* what) {
+    Context* context = Context::current();
+    if (!context) return tell_not_started();
+    context->error(Code::RI_DATA_MISSING, row(request).name, what);
+}
+
 Context& current_or_outside() {
     Context* context = Context::current();
     return context ? *context : outside().context;

@@ -12,11 +12,11 @@ RtVoid RiIdentity() {
 }
 
 RtVoid RiTransform(RtMatrix transform) {
-    send(Request::Transform, {array(&transform[0][0], 16)});
+    send(Request::Transform, {matrix(transform)});
 }
 
 RtVoid RiConcatTransform(RtMatrix transform) {
-    send(Request::ConcatTransform, {array(&transform[0][0], 16)});
+    send(Request::ConcatTransform, {matrix(transform)});
 }
 
 RtVoid RiPerspective(RtFloat fov) {

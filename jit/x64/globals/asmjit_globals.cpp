@@ -1,5 +1,5 @@
-// jit/x64/asmjit_globals.cpp: AsmJit's functions that print. Its static library has them compiled
-// for programs alone; linked before it, these make it fit for shared libraries.
+// jit/x64/globals/asmjit_globals.cpp: AsmJit's functions that print. Its static library has them
+// compiled for programs alone; linked before it, these make it fit for shared libraries.
 #include <asmjit/core.h>
 
 #include "runtime/base/check.h"
