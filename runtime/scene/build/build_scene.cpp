@@ -86,11 +86,13 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     std::unique_ptr<Scene> made =
         empty_scene(std::move(description), options, again ? again->textures : nullptr);
     Scene& scene = *made;
+    SceneNodes& nodes = scene;
+    SceneShapes& shapes = scene;
 
-    NodeTree tree(scene);
-    SkinBinder skins(scene, tree, node_poses(scene), diagnostics);
+    NodeTree tree(nodes, scene.start);
+    SkinBinder skins(nodes, tree, node_poses(nodes, scene.start), diagnostics);
     evaluate_anew(scene, scene.start, options.start_time);
-    std::vector<SurfaceUse> uses = add_shapes(scene, skins, diagnostics);
+    std::vector<SurfaceUse> uses = add_shapes(nodes, shapes, scene.start, skins, diagnostics);
     if (!something_to_draw(scene, diagnostics)) return nullptr;
     set_bounds(scene);
     suit_math(scene);
@@ -109,8 +111,8 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
         return nullptr;
     }
     scene.baked_samplers = anim::baked(scene.description->animation, key_options(options.quality));
-    set_rows(scene);
-    find_moving_parts(scene);
+    set_rows(shapes, scene);
+    find_moving_parts(nodes, shapes);
     if (scene.moving.surfaces.empty()) scene.still_tree = std::make_shared<StillTree>();
     drop_vertices(scene.start);
     return made;

@@ -12,6 +12,7 @@
 #include "runtime/scene/build/shapes/pose_at.h"
 #include "runtime/scene/camera.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
@@ -69,7 +70,7 @@ bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
     camera.x = {};
     camera.y = slot(yfov);
     camera.aspect = aspect ? slot(*aspect) : ValueSlot{};
-    take_added_values(scene);
+    take_added_values(description, scene.start);
     return true;
 }
 
