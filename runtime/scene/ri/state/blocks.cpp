@@ -20,6 +20,10 @@ constexpr BlockRow kBlocks[] = {
     {Request::AttributeBegin, Request::AttributeEnd},
     {Request::TransformBegin, Request::TransformEnd},
     {Request::SolidBegin, Request::SolidEnd},
+    // These are kept, and never among the open blocks.
+    {Request::MotionBegin, Request::MotionEnd},
+    {Request::ObjectBegin, Request::ObjectEnd},
+    {Request::ArchiveBegin, Request::ArchiveEnd},
 };
 
 Request begin_of(Request end) {
@@ -65,6 +69,8 @@ class Between {
 void Interpreter::begin_block(const Call& call) {
     Block block{call.request, call.where, attributes_, transform_, nullptr, {}};
     if (call.request == Request::FrameBegin) {
+        if (in_world() || frame_)
+            report(Code::RI_NESTING, "FrameBegin", "a frame stands within another block");
         block.options = std::make_unique<Options>(options_);
         frame_ = call.arguments[0].integer();
     }
@@ -126,9 +132,13 @@ void Interpreter::end_block(const Call& call) {
 }
 
 void Interpreter::finish() {
-    if (!blocks_.empty())
+    constexpr const char* kNotClosed = "it is not closed at the file's end";
+    if (!recording_.empty())
+        diagnostics_.report(Code::RI_NESTING, recording_.back().where,
+                            row(begin_of(recording_.back().end)).name, kNotClosed);
+    else if (!blocks_.empty())
         diagnostics_.report(Code::RI_NESTING, blocks_.back().where, row(blocks_.back().begin).name,
-                            "it is not closed at the file's end");
+                            kNotClosed);
     recording_.clear();
     while (!blocks_.empty()) {
         Block block = std::move(blocks_.back());

@@ -86,7 +86,9 @@ const std::vector<Interpreter::Handler>& Interpreter::handlers() {
         using R = Request;
         using I = Interpreter;
         set({R::FrameBegin, R::AttributeBegin, R::TransformBegin, R::SolidBegin}, &I::begin_block);
-        set({R::FrameEnd, R::AttributeEnd, R::TransformEnd, R::SolidEnd}, &I::end_block);
+        set({R::FrameEnd, R::AttributeEnd, R::TransformEnd, R::SolidEnd, R::ObjectEnd,
+             R::ArchiveEnd},
+            &I::end_block);
         set({R::WorldBegin}, &I::world_begin);
         set({R::WorldEnd}, &I::world_end);
         set({R::ObjectBegin}, &I::object_begin);
@@ -174,7 +176,10 @@ void Interpreter::call(const Call& call) {
 
 void Interpreter::dispatch(const Call& call) {
     const RequestClass kind = row(call.request).kind;
-    if (lists_alone() && kind != RequestClass::Block && kind != RequestClass::Anywhere) return;
+    // Archives, which may hold worlds, are found along an option.
+    if (lists_alone() && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
+        call.request != Request::Option)
+        return;
     if (kind == RequestClass::Option && in_world())
         return report(Code::RI_OPTION_IN_WORLD, row(call.request).name);
     if (kind == RequestClass::Primitive && !in_world())

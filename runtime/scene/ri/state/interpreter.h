@@ -155,6 +155,7 @@ class Interpreter : public CallSink {
     void coord_sys_transform(const Call& call);
     void concat(const dmat4& matrix);
     std::optional<dmat4> camera_from(std::string_view space) const;
+    dvec4 at_unit_distance(dvec4 p, bool back) const;
 
     // Primitives (primitives.cpp).
     void primitive(const Call& call);
