@@ -74,8 +74,10 @@ bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
     return true;
 }
 
-// What has to be seen at least: of a scene that the user took parts of, anything.
+// What has to be seen at least: of a scene that the user took parts of, anything. A file that says
+// what its picture is may show nothing.
 double little_of(const Scene& scene) {
+    if (scene.description->file_picture) return 0;
     return takes_parts(*scene.description) ? 1e-6 : kLittle;
 }
 

@@ -20,6 +20,10 @@ constexpr BlockRow kBlocks[] = {
     {Request::AttributeBegin, Request::AttributeEnd},
     {Request::TransformBegin, Request::TransformEnd},
     {Request::SolidBegin, Request::SolidEnd},
+    // These are kept, and never among the open blocks.
+    {Request::MotionBegin, Request::MotionEnd},
+    {Request::ObjectBegin, Request::ObjectEnd},
+    {Request::ArchiveBegin, Request::ArchiveEnd},
 };
 
 Request begin_of(Request end) {
@@ -65,6 +69,8 @@ class Between {
 void Interpreter::begin_block(const Call& call) {
     Block block{call.request, call.where, state_.attributes, state_.transform, nullptr, {}};
     if (call.request == Request::FrameBegin) {
+        if (state_.in_world() || frame_)
+            report_.add(Code::RI_NESTING, "FrameBegin", "a frame stands within another block");
         block.options = std::make_unique<Options>(state_.options);
         frame_ = call.arguments[0].integer();
     }
@@ -129,9 +135,14 @@ void Interpreter::end_block(const Call& call) {
 }
 
 void Interpreter::finish() {
-    if (!state_.blocks.empty())
-        report_.add_at(Code::RI_NESTING, state_.blocks.back().where,
-                       row(state_.blocks.back().begin).name, "it is not closed at the file's end");
+    constexpr const char* kNotClosed = "it is not closed at the file's end";
+    const std::vector<Block>& blocks = state_.blocks;
+    if (!recording_.empty())
+        report_.add_at(Code::RI_NESTING, recording_.back().where,
+                       row(begin_of(recording_.back().end)).name, kNotClosed);
+    else if (!blocks.empty())
+        report_.add_at(Code::RI_NESTING, blocks.back().where, row(blocks.back().begin).name,
+                       kNotClosed);
     recording_.clear();
     while (!state_.blocks.empty()) {
         Block block = std::move(state_.blocks.back());

@@ -99,6 +99,8 @@ void Interpreter::dispatch(const Call& call) {
         {R::AttributeEnd, &C::end_block},
         {R::TransformEnd, &C::end_block},
         {R::SolidEnd, &C::end_block},
+        {R::ObjectEnd, &C::end_block},
+        {R::ArchiveEnd, &C::end_block},
         {R::WorldBegin, &C::world_begin},
         {R::WorldEnd, &C::world_end},
         {R::ObjectBegin, &C::object_begin},
@@ -133,7 +135,10 @@ void Interpreter::dispatch(const Call& call) {
         {R::Blobby, &C::not_drawn},
     };
     const RequestClass kind = row(call.request).kind;
-    if (lists_alone() && kind != RequestClass::Block && kind != RequestClass::Anywhere) return;
+    // Archives, which may hold worlds, are found along an option.
+    if (lists_alone() && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
+        call.request != Request::Option)
+        return;
     if (kind == RequestClass::Option && state_.in_world())
         return report_.add(Code::RI_OPTION_IN_WORLD, row(call.request).name);
     if (kind == RequestClass::Primitive && !state_.in_world())

@@ -1,5 +1,6 @@
 // runtime/scene/ri/state/option_calls.cpp: options of the camera and the picture.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "runtime/scene/description/findings.h"
@@ -186,7 +187,8 @@ void OptionCalls::option(const Call& call) {
             while (!rest.empty()) {
                 // A colon behind one letter belongs to a drive's name.
                 size_t end = rest.find(':');
-                if (end == 1 && rest.size() > 2 && (rest[2] == '/' || rest[2] == '\\'))
+                if (end == 1 && std::isalpha(static_cast<unsigned char>(rest[0])) &&
+                    rest.size() > 2 && (rest[2] == '/' || rest[2] == '\\'))
                     end = rest.find(':', 2);
                 std::string folder(rest.substr(0, end));
                 rest = end == rest.npos ? "" : rest.substr(end + 1);

@@ -21,6 +21,29 @@ double real(const Call& call, size_t at) {
     return double(call.arguments[at].real());
 }
 
+bool is_of_picture(std::string_view space) {
+    return space == "raster" || space == "NDC" || space == "screen";
+}
+
+// From a space of the picture to where it lies at z = 1, so that a point's z stays its distance.
+// Pixels are those of the whole picture, not of the crop window.
+dmat4 window_from(std::string_view space, const Options& options) {
+    dmat4 m(1.0);
+    if (space == "screen") {
+        if (options.projection.perspective)
+            m[0][0] = m[1][1] = std::tan(radians(options.projection.fov) / 2);
+        return m;
+    }
+    WorldCamera camera = camera_of(options);
+    const FilePicture& picture = camera.picture;
+    const double* w = camera.window;
+    double dx = (w[1] - w[0]) / picture.width, dy = (w[3] - w[2]) / picture.height;
+    m[3][0] = w[0] - dx * picture.left, m[3][1] = w[3] + dy * picture.top;
+    m[0][0] = space == "NDC" ? dx * picture.full_width : dx;
+    m[1][1] = space == "NDC" ? -dy * picture.full_height : -dy;
+    return m;
+}
+
 }  // namespace
 
 bool TransformCalls::call(const Call& call) {
@@ -119,19 +142,17 @@ std::optional<dmat4> TransformCalls::camera_from(std::string_view space) const {
             found != state_.blocks[b].scoped.end())
             return found->second;
     if (auto found = state_.spaces.find(space); found != state_.spaces.end()) return found->second;
-    WorldCamera camera = camera_of(state_.options);
-    const double* w = camera.window;
-    double width = w[1] - w[0], height = w[3] - w[2];
-    bool raster = space == "raster", ndc = space == "NDC";
-    if (!raster && !ndc && space != "screen") return std::nullopt;
-    // Screen: the window at z = 1, so that a point's z stays its distance.
-    dmat4 m(1.0);
-    if (raster || ndc) {
-        double x = raster ? camera.picture.width : 1, y = raster ? camera.picture.height : 1;
-        m[0][0] = width / x, m[1][1] = -height / y;
-        m[3][0] = w[0], m[3][1] = w[3];
-    }
-    return m;
+    if (!is_of_picture(space)) return std::nullopt;
+    const Projection& projection = state_.options.projection;
+    return glm::inverse(projection.from_camera) * window_from(space, state_.options);
+}
+
+// A point of camera space as it is projected to z = 1, or back.
+dvec4 TransformCalls::at_unit_distance(dvec4 p, bool back) const {
+    const dmat4& from_camera = state_.options.projection.from_camera;
+    p = from_camera * p;
+    double factor = back || p.z == 0 ? p.z : 1 / p.z;
+    return glm::inverse(from_camera) * dvec4(p.x * factor, p.y * factor, p.z, p.w);
 }
 
 void TransformCalls::coord_sys_transform(const Call& call) {
@@ -144,9 +165,13 @@ bool TransformCalls::transform_points(std::string_view from, std::string_view to
                                       std::span<float> points) {
     std::optional<dmat4> a = camera_from(from), b = camera_from(to);
     if (!a || !b) return false;
-    dmat4 m = glm::inverse(*b) * *a;
+    const bool perspective = state_.options.projection.perspective;
+    const dmat4 to_from_camera = glm::inverse(*b);
     for (size_t i = 0; i + 2 < points.size(); i += 3) {
-        dvec4 p = m * dvec4(points[i], points[i + 1], points[i + 2], 1);
+        dvec4 p = *a * dvec4(points[i], points[i + 1], points[i + 2], 1);
+        if (perspective && is_of_picture(from)) p = at_unit_distance(p, true);
+        if (perspective && is_of_picture(to)) p = at_unit_distance(p, false);
+        p = to_from_camera * p;
         for (size_t k = 0; k < 3; ++k) points[i + k] = float(p[int(k)] / p.w);
     }
     return true;

@@ -29,6 +29,7 @@ class TransformCalls {
     void scoped_coordinate_system(const Call& call);
     void coord_sys_transform(const Call& call);
     void concat(const dmat4& matrix);
+    dvec4 at_unit_distance(dvec4 p, bool back) const;
 
     State& state_;
     StateReport& report_;
