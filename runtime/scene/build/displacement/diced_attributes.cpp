@@ -86,6 +86,7 @@ void bind_diced_attributes(SceneShapes& shapes, const SceneShaders& shaders,
         const PrimitiveGroup& old = *mesh.base.groups[g].definition;
         const PrimitiveGroup& group = *made.mesh.own_groups[g];
         surface.st = diced_attribute(surface.st, "TEXCOORD", old, group);
+        surface.uv = diced_attribute(surface.uv, kSurfaceParameters, old, group);
         rebind(shaders.shader_instances[surface.look]->varying, old, group, surface.varying);
         for (VertexUse* use : {&surface.transformation, &surface.displacement})
             if (use->instance != kNone)
