@@ -10,6 +10,7 @@
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/bytestream/read_stream.h"
 #include "runtime/scene/ri/calls/context.h"
+#include "runtime/scene/ri/import/merge_meshes.h"
 #include "runtime/scene/ri/state/interpreter.h"
 
 namespace kinora {
@@ -113,6 +114,7 @@ std::optional<SceneDescription> import_rib(const SceneSource& source, const Impo
             diagnostics.report(Code::RIB_NO_WORLD, Location{}, source.path);
         found.reset();
     }
+    if (found) merge_meshes(*found);
     return found;
 }
 
