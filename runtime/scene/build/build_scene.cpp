@@ -66,10 +66,12 @@ void drop_vertices(Pose& start) {
     start.watched.clear();
 }
 
-// False, with an error, for a file that holds nothing to see. What the user hides is no error.
+// False, with an error, for a file that holds nothing to see. What the user hides is no error, nor
+// is an empty picture where the file says what its picture is.
 bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
     const SceneDescription& description = *scene.description;
     if (anything_to_draw(scene) || has_picture_shaders(description)) return true;
+    if (description.file_picture) return true;
     bool hidden = takes_parts(description);
     if (!hidden && raise_findings(diagnostics, "XML_")) return false;
     diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});

@@ -8,8 +8,8 @@
 namespace kinora::ri {
 namespace {
 
-constexpr int kDeepestReplay = 64;
-constexpr size_t kMostReplayed = 20'000'000;  // calls of objects and archives, in a file
+constexpr size_t kDeepestReplay = 64;
+constexpr size_t kMostReplayed = 5'000'000;  // calls of objects and archives, in a file
 
 struct BlockRow {
     Request begin, end;
@@ -206,7 +206,7 @@ bool Interpreter::record(const Call& call) {
         if (object)
             objects_[open.object] = open.calls;
         else
-            archives_.insert_or_assign(open.archive, open.calls);
+            keep_archive(open.archive, open.calls);
         recording_.pop_back();
         return true;
     }
@@ -214,49 +214,70 @@ bool Interpreter::record(const Call& call) {
     return true;
 }
 
+void Interpreter::keep_archive(const std::string& name, std::shared_ptr<CallList> calls) {
+    std::swap(archives_[name], calls);
+    if (calls) replaced_.push_back(std::move(calls));
+}
+
+// Whether what `name` names may be read once more; until leave() it may not, since it would never
+// end.
+bool Interpreter::enter(const std::string& name) {
+    const char* why = nullptr;
+    if (std::ranges::count(entered_, name))
+        why = "it stands within itself, and is left out there";
+    else if (entered_.size() >= kDeepestReplay || replayed_ > kMostReplayed)
+        why = "objects and archives stand within each other too deep or too often";
+    if (!why) entered_.push_back(name);
+    if (why && report_.is_new(why)) report_.add(Code::RI_RANGE, name, why);
+    return !why;
+}
+
+void Interpreter::leave() {
+    entered_.pop_back();
+}
+
 void Interpreter::replay(const CallList& calls) {
-    if (replay_depth_ >= kDeepestReplay || replayed_ > kMostReplayed) {
-        report_.add(Code::RI_RANGE, "ObjectInstance",
-                    "objects and archives stand within each other too deep or too often");
-        return;
-    }
-    ++replay_depth_;
     for (const Call& call : calls.calls()) {
-        ++replayed_;
         replayed_call_ = &call;
         this->call(call);
     }
-    --replay_depth_;
 }
 
 void Interpreter::object_instance(const Call& call) {
     auto object = objects_.find(call.arguments[0].integer());
     if (object == objects_.end()) return report_.add(Code::RI_HANDLE, "ObjectInstance");
+    if (!enter(fmt::format("object {}", object->first))) return;
     std::shared_ptr<CallList> calls = object->second;  // one of its calls may replace it
     Attributes attributes = state_.attributes;
     dmat4 transform = state_.transform;
     replay(*calls);
+    leave();
     state_.attributes = std::move(attributes);
     state_.transform = transform;
 }
 
 void Interpreter::read_archive(const Call& call) {
     std::string name(call.arguments[0].string());
+    if (!enter("archive " + name)) return;
     if (auto kept = archives_.find(name); kept != archives_.end()) {
         std::shared_ptr<CallList> calls = kept->second;
-        return replay(*calls);
+        replay(*calls);
+    } else if (!read_archive_file(name, call.where)) {
+        report_.add_at(Code::RI_ARCHIVE, call.where, name);
     }
-    if (replay_depth_ >= kDeepestReplay)
-        return report_.add(Code::RI_RANGE, "ReadArchive", "archives read each other too deep");
-    ++replay_depth_;
-    bool found = false;
-    for (const std::string& folder : shaders_.folders("archive"))
-        if (!found) found = host_.read_archive(folder + name);
-    if (size_t slash = name.find_last_of("/\\"); !found && slash != name.npos)
-        for (const std::string& folder : shaders_.folders("archive"))
-            if (!found) found = host_.read_archive(folder + name.substr(slash + 1));
-    --replay_depth_;
-    if (!found) report_.add_at(Code::RI_ARCHIVE, call.where, name);
+    leave();
+}
+
+// Beside the file that names it, and in the folders of the first; then its bare name there.
+bool Interpreter::read_archive_file(const std::string& name, Location where) {
+    std::vector<std::string> folders = shaders_.folders("archive");
+    folders.insert(folders.begin(), report_.folder_of(where));
+    for (const std::string& folder : folders)
+        if (host_.read_archive(folder + name)) return true;
+    size_t slash = name.find_last_of("/\\");
+    for (size_t i = 0; i < folders.size() && slash != name.npos; ++i)
+        if (host_.read_archive(folders[i] + name.substr(slash + 1))) return true;
+    return false;
 }
 
 void Interpreter::procedural(const Call& call) {

@@ -33,7 +33,8 @@ void Interpreter::primitive(const Call& call) {
     if (!is_visible()) return;
     // Calls of a list that is played again stand where they stood.
     const void* key = replayed_call_ == &call ? &call : nullptr;
-    if (key && state_.world->add_again(key, state_.attributes, state_.to_camera())) return;
+    const dmat4 to_camera = state_.to_camera();
+    if (key && state_.world->add_again(key, state_.attributes, to_camera)) return;
     std::optional<MeshDefinition> mesh;
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, state_.attributes);
@@ -53,8 +54,8 @@ void Interpreter::primitive(const Call& call) {
     }
     if (!mesh) return;
     mesh->where = call.where;
-    state_.world->add(std::move(*mesh), state_.attributes, state_.to_camera());
-    if (key) state_.world->keep_mesh(key, state_.attributes);
+    state_.world->add(std::move(*mesh), state_.attributes, to_camera);
+    if (key) state_.world->keep_mesh(key, state_.attributes, to_camera);
 }
 
 void Interpreter::geometry(const Call& call) {

@@ -81,6 +81,7 @@ void Interpreter::call(const Call& call) {
         if (call.request == Request::IfBegin) ++skipped_branch_;
         if (call.request != Request::IfEnd || --skipped_branch_) return;
     }
+    if (!entered_.empty()) ++replayed_;
     const Call* outer = report_.begin(&call);
     if (!record(call)) dispatch(call);
     report_.begin(outer);

@@ -60,7 +60,11 @@ class Interpreter : public CallSink {
     void branch_else(const Call& call);
     void if_end(const Call& call);
     bool record(const Call& call);
+    void keep_archive(const std::string& name, std::shared_ptr<CallList> calls);
+    bool enter(const std::string& name);
+    void leave();
     void replay(const CallList& calls);
+    bool read_archive_file(const std::string& name, Location where);
     void procedural(const Call& call);
 
     // Primitives (drawing.cpp).
@@ -95,8 +99,10 @@ class Interpreter : public CallSink {
     std::vector<Recording> recording_;  // at most one but for motion in others
     std::map<std::string, std::shared_ptr<CallList>, std::less<>> archives_;
     std::map<int, std::shared_ptr<CallList>> objects_;
-    int replay_depth_ = 0;
-    size_t replayed_ = 0;
+    // Of archives that were made anew. World knows meshes by where their calls lie.
+    std::vector<std::shared_ptr<CallList>> replaced_;
+    std::vector<std::string> entered_;     // the objects and archives that are being read
+    size_t replayed_ = 0;                  // calls of them
     const Call* replayed_call_ = nullptr;  // the last that came from a list
     int skipped_branch_ = 0;               // depth of IfBegin within a branch that is not read
     std::vector<bool> branches_;           // of open IfBegin: one was read

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "runtime/base/transform_matrix.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/state/option_calls.h"
 
@@ -89,7 +90,10 @@ void OptionCalls::projection(const Call& call) {
         report_.add(Code::RI_RANGE, "Projection", "fov lies not between 0 and 180 degrees");
         made.fov = 90;
     }
-    made.from_camera = state_.transform;
+    if (is_singular(state_.transform))
+        report_.add(Code::RI_RANGE, "Projection", "the transformation before it makes all flat");
+    else
+        made.from_camera = state_.transform;
     state_.options.projection = made;
     state_.transform = dmat4(1.0);
 }

@@ -139,10 +139,8 @@ void ShaderCalls::surface(const Call& call) {
     std::vector<Binding>& layers = state_.attributes.*row->layers;
     layers.clear();
     if (Binding made = bind(call, 0, row->type)) layers.push_back(std::move(made));
-    if (call.request == Request::Surface) {
-        state_.attributes.area_light = nullptr;
+    if (call.request == Request::Surface)
         state_.attributes.no_surface = call.arguments[0].string() == "null";
-    }
 }
 
 void ShaderCalls::shader_layer(const Call& call) {

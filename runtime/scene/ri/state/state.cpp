@@ -12,6 +12,12 @@ void StateReport::not_done(std::string_view what, std::string_view why) {
     if (is_new(fmt::format("{} {}", what, why))) add(Code::RI_NOT_DONE, what, why);
 }
 
+std::string StateReport::folder_of(Location where) const {
+    if (where.file == kNoFile) return "";
+    const std::string& path = diagnostics_.files.name(where.file);
+    return path.substr(0, path.rfind('/') + 1);
+}
+
 dvec3 rgb_of(const Values& values, const Options& options) {
     auto numbers = values.floats();
     dvec3 made(0.0);

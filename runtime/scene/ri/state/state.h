@@ -34,6 +34,8 @@ class StateReport {
     }
     // Once a file: what of the interface is read and has no effect.
     void not_done(std::string_view what, std::string_view why);
+    // Of the file where that is, with its slash; "": of none.
+    std::string folder_of(Location where) const;
     // Whether this is said for the first time.
     bool is_new(std::string text) { return told_.insert(std::move(text)).second; }
 

@@ -1,4 +1,5 @@
 // runtime/scene/ri/state/transform_calls.cpp: the current transformation and named spaces.
+#include <cmath>
 #include <glm/matrix.hpp>
 
 #include "runtime/base/transform_matrix.h"
@@ -65,8 +66,17 @@ bool TransformCalls::call(const Call& call) {
     return kHandlers.call(*this, call);
 }
 
+void TransformCalls::set(const dmat4& matrix) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (!std::isfinite(matrix[c][r]))
+                return report_.add(Code::RI_RANGE, "the transformation",
+                                   "it would not be finite, and stays as it is");
+    state_.transform = matrix;
+}
+
 void TransformCalls::concat(const dmat4& matrix) {
-    state_.transform = state_.transform * matrix;
+    set(state_.transform * matrix);
 }
 
 void TransformCalls::identity(const Call&) {
@@ -74,7 +84,7 @@ void TransformCalls::identity(const Call&) {
 }
 
 void TransformCalls::transform(const Call& call) {
-    state_.transform = matrix_of(call.arguments[0]);
+    set(matrix_of(call.arguments[0]));
 }
 
 void TransformCalls::concat_transform(const Call& call) {
@@ -158,7 +168,7 @@ dvec4 TransformCalls::at_unit_distance(dvec4 p, bool back) const {
 void TransformCalls::coord_sys_transform(const Call& call) {
     std::optional<dmat4> found = camera_from(call.arguments[0].string());
     if (!found) return report_.add(Code::RI_SPACE, call.arguments[0].string(), "");
-    state_.transform = glm::inverse(state_.camera_from_world) * *found;
+    set(glm::inverse(state_.camera_from_world) * *found);
 }
 
 bool TransformCalls::transform_points(std::string_view from, std::string_view to,

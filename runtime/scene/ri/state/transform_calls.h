@@ -28,6 +28,7 @@ class TransformCalls {
     void coordinate_system(const Call& call);
     void scoped_coordinate_system(const Call& call);
     void coord_sys_transform(const Call& call);
+    void set(const dmat4& matrix);
     void concat(const dmat4& matrix);
     dvec4 at_unit_distance(dvec4 p, bool back) const;
 

@@ -92,6 +92,21 @@ FilePicture picture_of(const Options& options) {
     return made;
 }
 
+// What of the attributes changes a primitive's mesh.
+std::vector<double> shape_key(const Attributes& attributes) {
+    std::vector<double> key(attributes.corners.begin(), attributes.corners.end());
+    key.push_back(attributes.inside_out);
+    for (const Basis* basis : {&attributes.u, &attributes.v}) {
+        auto numbers = numbers_of(basis->matrix);
+        key.insert(key.end(), numbers.begin(), numbers.end());
+        key.push_back(basis->step);
+    }
+    key.push_back(attributes.trim_outside);
+    for (const TrimLoop& loop : attributes.trims)
+        for (const dvec2& p : loop) key.insert(key.end(), {p.x, p.y});
+    return key;
+}
+
 }  // namespace
 
 WorldCamera camera_of(const Options& options) {
@@ -312,14 +327,31 @@ void World::add(MeshDefinition mesh, const Attributes& attributes, const dmat4& 
     use_mesh(index, attributes, to_camera);
 }
 
-void World::keep_mesh(const void* key, const Attributes& attributes) {
-    kept_[{key, attributes.inside_out}] = uint32_t(out_.meshes.size() - 1);
+// Of a unit of the mesh, where it is nearest.
+double World::pixels_of(const KeptMesh& kept, const dmat4& to_camera) const {
+    const PictureScale at = scale(to_camera);
+    double size = 0;
+    for (int c = 0; c < 3; ++c) size = std::max(size, glm::length(dvec3(at.to_camera[c])));
+    double z = (at.to_camera * dvec4(kept.center, 1)).z - kept.radius * size;
+    return at.pixels * size / (at.orthographic ? 1 : std::max(z, at.near));
+}
+
+void World::keep_mesh(const void* key, const Attributes& attributes, const dmat4& to_camera) {
+    KeptMesh kept{uint32_t(out_.meshes.size() - 1), {}, 0, 0};
+    dvec3 low(1e300), high(-1e300);
+    for (const dvec3& p : out_.meshes.back().positions)
+        low = glm::min(low, p), high = glm::max(high, p);
+    kept.center = (low + high) / 2.0, kept.radius = glm::length(high - low) / 2;
+    kept.pixels = pixels_of(kept, to_camera);
+    kept_.insert_or_assign({key, shape_key(attributes)}, kept);
 }
 
 bool World::add_again(const void* key, const Attributes& attributes, const dmat4& to_camera) {
-    auto known = kept_.find({key, attributes.inside_out});
+    constexpr double kCoarser = 1.5;
+    auto known = kept_.find({key, shape_key(attributes)});
     if (known == kept_.end()) return false;
-    use_mesh(known->second, attributes, to_camera);
+    if (!(pixels_of(known->second, to_camera) <= kCoarser * known->second.pixels)) return false;
+    use_mesh(known->second.mesh, attributes, to_camera);
     return true;
 }
 
