@@ -21,7 +21,7 @@ SOURCE_FOLDERS = ("runtime", "collada", "rsl", "jit", "anim", "skin", "raytrace"
 LEAVES = ("jit", "anim", "skin", "collada", "raytrace")
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]', re.M)
 # The parts of the runtime, each above those before it.
-PARTS = ("runtime/base", "runtime/scene", "runtime/picture", "runtime/kinora", "runtime/player",
+PARTS = ("runtime/base", "runtime/scene", "runtime/picture", "runtime/kinora", "runtime/ri", "runtime/player",
          "runtime/programs")
 MOST_FILES = 40
 

@@ -32,6 +32,15 @@ SceneError OpenScene::read(const std::optional<std::string_view>& bytes) {
     return checked(SceneError::Internal, [&] { return read_source(bytes); });
 }
 
+SceneError OpenScene::take(SceneDescription made, const SourceFiles& files) {
+    return checked(SceneError::Internal, [&] {
+        built_ = {};
+        diagnostics_.files = files;
+        imported_ = import_made(request_, std::move(made), diagnostics_);
+        return take_imported();
+    });
+}
+
 SceneError OpenScene::build() {
     return checked(SceneError::Internal, [&] { return build_source(); });
 }
@@ -76,6 +85,10 @@ SceneError OpenScene::read_source(const std::optional<std::string_view>& bytes) 
         raise_findings(diagnostics_, "XML_");
         return SceneError::Unreadable;
     }
+    return take_imported();
+}
+
+SceneError OpenScene::take_imported() {
     rate_ = imported_->rate;
     return imported_->clip_known ? SceneError::None : SceneError::Request;
 }

@@ -42,6 +42,8 @@ class OpenScene {
     // (.gltf, .glb, else COLLADA) where the bytes do not, and relative references begin at its
     // folder. Unreadable: no scene. Request: the clip is none of the scene's.
     SceneError read(const std::optional<std::string_view>& bytes = std::nullopt);
+    // Takes a scene that somebody made, instead. `files`: what its places are in.
+    SceneError take(SceneDescription made, const SourceFiles& files);
     // Builds what was read, with what was set since.
     SceneError build();
     // Both.
@@ -89,6 +91,7 @@ class OpenScene {
     template <class Body>
     bool in_pose(const Body& body);
     SceneError read_source(const std::optional<std::string_view>& bytes);
+    SceneError take_imported();
     SceneError build_source();
     bool pose_at(double seconds);
     bool render_at(double seconds, raytrace::Film& film, RenderedFrame& c,

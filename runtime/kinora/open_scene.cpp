@@ -49,23 +49,6 @@ SceneOptions scene_options(const SceneRequest& request) {
     return o;
 }
 
-ImportOptions import_options(const SceneRequest& request) {
-    ImportOptions import;
-    import.allow_external = request.allow_external;
-    import.confine = request.confine;
-    import.up_axis = request.up_axis;
-    import.meter = request.meter;
-    import.transparency = request.transparency;
-    import.emission = request.emission;
-    import.vertex_colors = request.vertex_colors;
-    import.ignore_required = request.ignore_required;
-    import.smooth = request.smooth;
-    import.decode_colors = encoding_of(request) == ColorEncoding::Srgb;
-    import.world = request.world;
-    import.include_directories = request.include_directories;
-    return import;
-}
-
 void check_target(const SceneRequest& request, Diagnostics& diagnostics) {
     if (!request.target_missing.empty())
         diagnostics.report(Code::TARGET_UNAVAILABLE, Location{}, request.target_missing,
@@ -110,6 +93,14 @@ void set_range(ImportedScene& imported, const SceneRequest& request) {
     imported.options.view.turn_start = imported.rate.time(first_frame(imported.rate, range.start));
 }
 
+ImportedScene with_changes(const SceneRequest& request, SceneDescription description,
+                           Diagnostics& diagnostics) {
+    change(description, request, diagnostics);
+    ImportedScene imported{std::move(description), scene_options(request), {}};
+    set_range(imported, request);
+    return imported;
+}
+
 }  // namespace
 
 std::optional<dvec3> parse_point(const std::string& text) {
@@ -129,6 +120,23 @@ void judge_by(const SceneRequest& request, Diagnostics& diagnostics) {
     if (request.strict) diagnostics.set_severity("RSL_SPACE_UNKNOWN", Severity::Error);
 }
 
+ImportOptions import_options(const SceneRequest& request) {
+    ImportOptions import;
+    import.allow_external = request.allow_external;
+    import.confine = request.confine;
+    import.up_axis = request.up_axis;
+    import.meter = request.meter;
+    import.transparency = request.transparency;
+    import.emission = request.emission;
+    import.vertex_colors = request.vertex_colors;
+    import.ignore_required = request.ignore_required;
+    import.smooth = request.smooth;
+    import.decode_colors = encoding_of(request) == ColorEncoding::Srgb;
+    import.world = request.world;
+    import.include_directories = request.include_directories;
+    return import;
+}
+
 std::optional<ImportedScene> import_requested(const SceneRequest& request, Diagnostics& diagnostics,
                                               const std::optional<std::string_view>& bytes) {
     check_target(request, diagnostics);
@@ -143,10 +151,13 @@ std::optional<ImportedScene> import_requested(const SceneRequest& request, Diagn
             diagnostics.report(Code::SCENE_EMPTY, Location{});
         return std::nullopt;
     }
-    change(*description, request, diagnostics);
-    ImportedScene imported{std::move(*description), scene_options(request), {}};
-    set_range(imported, request);
-    return imported;
+    return with_changes(request, std::move(*description), diagnostics);
+}
+
+ImportedScene import_made(const SceneRequest& request, SceneDescription made,
+                          Diagnostics& diagnostics) {
+    check_target(request, diagnostics);
+    return with_changes(request, std::move(made), diagnostics);
 }
 
 BuiltScene build_imported(ImportedScene imported, Diagnostics& diagnostics,

@@ -10,6 +10,7 @@
 #include "runtime/kinora/scene_request.h"
 #include "runtime/picture/frame/frame.h"
 #include "runtime/picture/frame/redice.h"
+#include "runtime/scene/description/import_options.h"
 
 namespace kinora {
 
@@ -33,6 +34,12 @@ void judge_by(const SceneRequest& request, Diagnostics& diagnostics);
 std::optional<ImportedScene> import_requested(
     const SceneRequest& request, Diagnostics& diagnostics,
     const std::optional<std::string_view>& bytes = std::nullopt);
+
+// A scene that somebody made (ImportOptions of import_options()) instead of a file's, with what the
+// request changes of it.
+ImportedScene import_made(const SceneRequest& request, SceneDescription made,
+                          Diagnostics& diagnostics);
+ImportOptions import_options(const SceneRequest& request);
 
 struct BuiltScene {
     std::unique_ptr<Scene> scene;      // null: findings say why

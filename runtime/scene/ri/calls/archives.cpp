@@ -97,11 +97,3 @@ RtToken RiDeclare(char* name, char* declaration) {
     send(Request::Declare, {name, declaration});
     return name;
 }
-
-RtContextHandle RiGetContext() {
-    return Context::current();
-}
-
-RtVoid RiContext(RtContextHandle handle) {
-    Context::make_current(static_cast<Context*>(handle));
-}

@@ -2,6 +2,8 @@
 #include "runtime/scene/ri/calls/context.h"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 
 #include "runtime/scene/description/findings.h"
 
@@ -46,6 +48,14 @@ constexpr ErrorRow kErrors[] = {
     {"RIB_DEPTH", RIE_NESTING},
     {"RIB_FOREIGN", RIE_BADFILE},
     {"RIB_MORE", RIE_LIMIT},
+    {"RI_MEMORY", RIE_NOMEM},
+    {"RI_NOT_WRITTEN", RIE_SYSTEM},
+    {"RI_DISPLAY", RIE_NOERROR},
+    {"RI_SHADOW_TRACED", RIE_NOERROR},
+    {"IMAGE_UNREADABLE", RIE_NOFILE},
+    {"POINT_FILE_UNREADABLE", RIE_NOFILE},
+    {"SCENE_EMPTY", RIE_MISSINGDATA},
+    {"INTERNAL_CHECK", RIE_BUG},
 };
 
 int severity_code(Severity severity) {
@@ -71,6 +81,19 @@ Values values_at(const void* pointer, const Declaration& declaration, size_t cou
     }
 }
 
+// Arrays whose length is not counted, and so not 0 but for a null pointer.
+bool lacks_array(Request request, std::span<const Values> arguments) {
+    size_t at = 0;
+    for (char letter : row(request).arguments) {
+        if (letter == '?') continue;
+        if (letter == '*' || at == arguments.size()) break;
+        const Values& values = arguments[at++];
+        bool fixed = std::string_view("mbcx").find(letter) != std::string_view::npos;
+        if (fixed && values.size() == 0) return true;
+    }
+    return false;
+}
+
 bool saves_attributes(Request request) {
     return request == Request::FrameBegin || request == Request::WorldBegin ||
            request == Request::AttributeBegin || request == Request::SolidBegin ||
@@ -87,7 +110,9 @@ bool restores_attributes(Request request) {
 
 ErrorCode error_code(const FindingInfo& finding) {
     auto row = std::ranges::find(kErrors, std::string_view(finding.code), &ErrorRow::code);
-    return {row == std::end(kErrors) ? RIE_BUG : row->error, severity_code(finding.rendering)};
+    int code = row == std::end(kErrors) ? RIE_CONSISTENCY : row->error;
+    if (std::string_view(finding.code).starts_with("RSL_")) code = RIE_NOSHADER;
+    return {code, severity_code(finding.rendering)};
 }
 
 Context::Context(std::unique_ptr<CallSink> sink, Diagnostics& diagnostics)
@@ -108,10 +133,42 @@ void Context::make_current(Context* context) {
 void Context::tell(const Finding& finding) {
     ErrorCode told = error_code(*finding.info);
     told.severity = severity_code(finding.severity);
-    RiLastError = told.code;
+    if (told.severity != RIE_INFO) RiLastError = told.code;
     if (!handler) return;
     std::string message = finding.message;
+    if (finding.where.file != kNoFile) {
+        const SourceFiles& files = diagnostics_.files;
+        int line = files.line_column(finding.where.file, finding.where.begin).line;
+        message = fmt::format("{}:{}: {}", files.name(finding.where.file), line, message);
+    }
     handler(told.code, told.severity, message.data());
+}
+
+// The handler may make calls; it is not told what is wrong with them, which would not end.
+void Context::tell() {
+    if (telling_ || told_ >= diagnostics_.findings().size()) return;
+    Busy busy(*this);
+    telling_ = true;
+    const std::vector<Finding> news(diagnostics_.findings().begin() + std::ptrdiff_t(told_),
+                                    diagnostics_.findings().end());
+    for (const Finding& finding : news) tell(finding);
+    telling_ = false;
+    if (for_c_program) diagnostics_.clear();
+    told_ = diagnostics_.findings().size();
+}
+
+// Where memory ends there may be too little for a finding.
+void Context::report_exception() try {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        RiLastError = RIE_NOMEM;
+        diagnostics_.report(Code::RI_MEMORY, where);
+    } catch (const std::exception& mistake) {
+        diagnostics_.report(Code::INTERNAL_CHECK, where, mistake.what());
+    }
+} catch (...) {
+    RiLastError = RIE_NOMEM;
 }
 
 std::optional<Declaration> Context::resolve(Request request, std::string_view shader,
@@ -129,13 +186,20 @@ std::optional<Declaration> Context::resolve(Request request, std::string_view sh
 
 void Context::send(Request request, std::span<const Values> arguments, int n, RtToken tokens[],
                    RtPointer values[], uint32_t vertices) {
+    contained([&] { send_contained(request, arguments, n, tokens, values, vertices); });
+}
+
+void Context::send_contained(Request request, std::span<const Values> arguments, int n,
+                             RtToken tokens[], RtPointer values[], uint32_t vertices) {
+    if (lacks_array(request, arguments))
+        return error(Code::RI_DATA_MISSING, row(request).name, "values");
     CountedCall counted = count_values(request, arguments, counts_.back(), vertices);
     if (!counted.why.empty()) return error(Code::RI_COUNTS, row(request).name, counted.why);
     // A sink may read an archive during this call, which sends others.
     std::vector<Parameter> parameters = std::move(spare_parameters_);
     parameters.clear();
     std::string_view shader = arguments.empty() ? "" : arguments[0].string();
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; tokens && values && i < n; ++i) {
         if (!tokens[i] || !values[i]) continue;
         std::string_view name;
         auto declaration = resolve(request, shader, tokens[i], name);
@@ -150,6 +214,7 @@ void Context::send(Request request, std::span<const Values> arguments, int n, Rt
     follow_blocks(request, arguments);
     sink_->call({request, arguments, parameters, counted.counts, where});
     spare_parameters_ = std::move(parameters);
+    tell();
 }
 
 void Context::follow_blocks(Request request, std::span<const Values> arguments) {

@@ -53,16 +53,36 @@ class Context {
     static Context* current();
     static void make_current(Context* context);
 
-    // Reports a finding at `where` and tells it to the error handler.
+    // Reports a finding at `where`, and tells the error handler.
     template <class... Args>
     void error(const FindingInfo& info, const Args&... args) {
-        tell(diagnostics_.report(info, where, args...));
+        diagnostics_.report(info, where, args...);
+        tell();
+    }
+    // Tells the error handler what was found since it was told last, by the sink too. The end of
+    // each send() does.
+    void tell();
+    // Does a part of a call. For a C program, which no exception may reach, what it throws becomes
+    // an error.
+    template <class Body>
+    void contained(const Body& body) {
+        if (!for_c_program) return body();
+        Busy busy(*this);
+        try {
+            body();
+        } catch (...) {
+            report_exception();
+        }
+        tell();
     }
 
     // What a token means: an inline declaration ("uniform float Kd"), a declared name, or what the
     // shader says. `name` is the token without a declaration. Null: not known.
     std::optional<Declaration> resolve(Request request, std::string_view shader,
                                        std::string_view token, std::string_view& name);
+
+    // A call of it is being done, which called the program's own code.
+    bool is_busy() const { return busy_ > 0; }
 
     // Sends a call on; counts, and attribute blocks for them, are kept here. `vertices`: of
     // requests that have their number of points from the caller alone.
@@ -81,13 +101,25 @@ class Context {
     Location where;                                // of the request that is being read
     RtErrorHandler handler = nullptr;              // null: findings are kept, no more
     RtArchiveCallback archive_callback = nullptr;  // hears comments of the archive being read
+    bool for_c_program = false;                    // findings are dropped when they were told, too
 
   private:
+    struct Busy {
+        explicit Busy(Context& own) : context(own) { ++context.busy_; }
+        ~Busy() { --context.busy_; }
+        Context& context;
+    };
     void tell(const Finding& finding);
+    void report_exception();
+    void send_contained(Request request, std::span<const Values> arguments, int n, RtToken tokens[],
+                        RtPointer values[], uint32_t vertices);
     void follow_blocks(Request request, std::span<const Values> arguments);
 
     std::unique_ptr<CallSink> sink_;
     Diagnostics& diagnostics_;
+    size_t told_ = 0;  // of the findings
+    bool telling_ = false;
+    int busy_ = 0;
     Declarations declarations_;
     int handles_ = 0;
     std::vector<CountState> counts_;

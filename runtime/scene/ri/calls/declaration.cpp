@@ -99,7 +99,8 @@ constexpr StandardRow kStandard[] = {
     {"texturename", "uniform string"},
     {"Option:searchpath:shader Option:searchpath:texture Option:searchpath:archive "
      "Option:searchpath:procedural Option:searchpath:display Option:ribparse:varsubst "
-     "Option:statistics:filename Option:shutter:offset Option:limits:texturememorytype",
+     "Option:statistics:filename Option:shutter:offset Option:limits:texturememorytype "
+     "Option:rib:format Option:rib:compression",
      "uniform string"},
     {"Option:limits:gridsize Option:limits:texturememory Option:limits:eyesplits "
      "Option:limits:geommemory Option:limits:zthreshold Option:statistics:endofframe "

@@ -31,8 +31,7 @@ RtVoid RiErrorAbort(RtInt code, RtInt severity, char* message) {
 
 // A program's own function has no name for RIB.
 RtVoid RiErrorHandler(RtErrorHandler handler) {
-    Context* context = Context::current();
-    if (!context) return tell_not_started();
-    context->handler = handler;
-    if (const char* name = handler_name(handler)) send(Request::ErrorHandler, {name});
+    current_or_outside().handler = handler;
+    const char* name = handler_name(handler);
+    if (name && Context::current()) send(Request::ErrorHandler, {name});
 }

@@ -3,6 +3,7 @@
 
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/calls/functions_p.h"
+#include "runtime/scene/ri/calls/outside.h"
 
 namespace kinora::ri {
 
@@ -14,7 +15,18 @@ Pairs::Pairs(va_list list) {
 }
 
 void tell_not_started() {
-    RiLastError = RIE_NOTSTARTED;
+    outside().context.error(Code::RI_NOT_STARTED);
+}
+
+void tell_missing(Request request, const char* what) {
+    Context* context = Context::current();
+    if (!context) return tell_not_started();
+    context->error(Code::RI_DATA_MISSING, row(request).name, what);
+}
+
+Context& current_or_outside() {
+    Context* context = Context::current();
+    return context ? *context : outside().context;
 }
 
 void send(Request request, std::initializer_list<Values> arguments, RtInt n, RtToken tokens[],

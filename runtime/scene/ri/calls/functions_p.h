@@ -23,6 +23,10 @@ struct Pairs {
 
 // No context was begun on this thread: RIE_NOTSTARTED.
 void tell_not_started();
+// Of a null pointer: RIE_MISSINGDATA.
+void tell_missing(Request request, const char* what);
+// The context of this thread, or that of calls which need none.
+Context& current_or_outside();
 
 void send(Request request, std::initializer_list<Values> arguments, RtInt n = 0,
           RtToken tokens[] = nullptr, RtPointer values[] = nullptr, RtInt vertices = 0);
@@ -46,6 +50,9 @@ inline std::span<const float> array(const RtFloat* values, int64_t count) {
 }
 inline std::span<const char* const> array(char* const* values, int64_t count) {
     return {values, values && count > 0 ? size_t(count) : 0};
+}
+inline std::span<const float> matrix(RtFloat (*rows)[4]) {
+    return array(rows ? rows[0] : nullptr, 16);
 }
 // The sum, of those above 0.
 int64_t total(std::span<const int> counts);

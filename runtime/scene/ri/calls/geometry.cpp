@@ -36,7 +36,7 @@ RtVoid RiSides(RtInt nsides) {
 }
 
 RtVoid RiBasis(RtBasis ubasis, RtInt ustep, RtBasis vbasis, RtInt vstep) {
-    send(Request::Basis, {array(&ubasis[0][0], 16), ustep, array(&vbasis[0][0], 16), vstep});
+    send(Request::Basis, {matrix(ubasis), ustep, matrix(vbasis), vstep});
 }
 
 RtVoid RiTrimCurve(RtInt nloops, RtInt ncurves[], RtInt order[], RtFloat knot[], RtFloat min[],

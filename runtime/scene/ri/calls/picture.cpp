@@ -65,5 +65,6 @@ RtVoid RiOption(RtToken name, ...) {
 }
 
 RtVoid RiOptionV(RtToken name, RtInt n, RtToken tokens[], RtPointer parms[]) {
-    send(Request::Option, {name}, n, tokens, parms);
+    const Values arguments[] = {name};
+    current_or_outside().send(Request::Option, arguments, n, tokens, parms);
 }

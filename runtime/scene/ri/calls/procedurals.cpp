@@ -54,7 +54,7 @@ RtVoid RiProcedural(RtPointer data, RtBound bound, RtProcSubdivFunc subdivide,
     bool standard = false;
     for (const StandardRow& row : kStandard)
         if (row.function == subdivide && (standard = true))
-            send_standard(row, data, array(bound, 6));
+            send_standard(row, data, bound ? array(bound, 6) : std::span(kEverywhere));
     if (!standard && subdivide) {
         RiAttributeBegin();
         subdivide(data, RI_INFINITY);

@@ -43,6 +43,7 @@ RtVoid RiHyperboloid(RtPoint point1, RtPoint point2, RtFloat thetamax, ...) {
 
 RtVoid RiHyperboloidV(RtPoint point1, RtPoint point2, RtFloat thetamax, RtInt n, RtToken tokens[],
                       RtPointer parms[]) {
+    if (!point1 || !point2) return tell_missing(Request::Hyperboloid, "points");
     send(Request::Hyperboloid,
          {point1[0], point1[1], point1[2], point2[0], point2[1], point2[2], thetamax}, n, tokens,
          parms);

@@ -12,11 +12,11 @@ RtVoid RiIdentity() {
 }
 
 RtVoid RiTransform(RtMatrix transform) {
-    send(Request::Transform, {array(&transform[0][0], 16)});
+    send(Request::Transform, {matrix(transform)});
 }
 
 RtVoid RiConcatTransform(RtMatrix transform) {
-    send(Request::ConcatTransform, {array(&transform[0][0], 16)});
+    send(Request::ConcatTransform, {matrix(transform)});
 }
 
 RtVoid RiPerspective(RtFloat fov) {
@@ -59,7 +59,9 @@ RtPoint* RiTransformPoints(RtToken fromspace, RtToken tospace, RtInt n, RtPoint 
         return nullptr;
     }
     std::span<float> all(points ? &points[0][0] : nullptr, points && n > 0 ? 3 * size_t(n) : 0);
-    bool known = context->sink().transform_points(fromspace, tospace, all);
-    if (!known) context->error(Code::RI_SPACE, fromspace, tospace);
+    const char *from = fromspace ? fromspace : "", *to = tospace ? tospace : "";
+    bool known = false;
+    context->contained([&] { known = context->sink().transform_points(from, to, all); });
+    if (!known) context->error(Code::RI_SPACE, from, to);
     return known ? points : nullptr;
 }

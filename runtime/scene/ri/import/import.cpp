@@ -1,5 +1,4 @@
-// runtime/scene/ri/import/import.cpp: a file's bytes through the reader and the C functions to an
-// interpreter.
+// runtime/scene/ri/import/import.cpp: a file's worlds as scenes.
 #include "runtime/scene/ri/import/import.h"
 
 #include <algorithm>
@@ -9,14 +8,14 @@
 #include "runtime/base/regular_file.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/bytestream/read_stream.h"
-#include "runtime/scene/ri/calls/context.h"
+#include "runtime/scene/ri/import/interpretation.h"
 #include "runtime/scene/ri/import/merge_meshes.h"
-#include "runtime/scene/ri/state/interpreter.h"
 
 namespace kinora {
 namespace {
 
-std::optional<std::string> content_of(const std::string& path, size_t most = ~size_t(0)) {
+// The first bytes.
+std::optional<std::string> content_of(const std::string& path, size_t most) {
     OpenFile file = open_regular_file(path);
     if (!file) return std::nullopt;
     std::string content;
@@ -29,19 +28,6 @@ std::optional<std::string> content_of(const std::string& path, size_t most = ~si
             break;
     return content;
 }
-
-// The context of a file being read is this thread's for as long.
-class CurrentContext {
-  public:
-    explicit CurrentContext(ri::Context& context) : before_(ri::Context::current()) {
-        ri::Context::make_current(&context);
-    }
-    ~CurrentContext() { ri::Context::make_current(before_); }
-    CurrentContext(const CurrentContext&) = delete;
-
-  private:
-    ri::Context* before_;
-};
 
 }  // namespace
 
@@ -56,32 +42,14 @@ bool is_rib(const SceneSource& source) {
 bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnostics& diagnostics,
               const std::function<bool(SceneDescription&& world)>& take) {
     std::optional<std::string> content =
-        source.bytes ? std::string(*source.bytes) : content_of(source.path);
+        source.bytes ? std::string(*source.bytes) : read_regular_file(source.path);
     if (!content) {
         diagnostics.report(Code::RIB_UNREADABLE, Location{}, source.path);
         return false;
     }
-    ri::BytestreamReader* reader = nullptr;
-    ri::InterpreterHost host;
-    bool stopped = false;
-    host.take_world = [&](SceneDescription&& world) {
-        stopped = stopped || !take(std::move(world));
-        if (stopped) reader->stop();
-    };
-    host.read_archive = [&](const std::string& path) {
-        std::optional<std::string> archive = content_of(path);
-        if (archive) reader->read(path, std::move(*archive));
-        return archive.has_value();
-    };
-    auto sink =
-        std::make_unique<ri::Interpreter>(source.path, options, std::move(host), diagnostics);
-    ri::Interpreter& interpreter = *sink;
-    ri::Context context(std::move(sink), diagnostics);
-    CurrentContext current(context);
-    ri::BytestreamReader stream(context);
-    reader = &stream;
-    bool sound = stream.read(source.path, std::move(*content));
-    if (!stopped) interpreter.finish();
+    ri::Interpretation reading(source.path, options, diagnostics, take);
+    bool sound = reading.read(source.path, std::move(*content));
+    reading.finish();
     return sound;
 }
 
