@@ -84,18 +84,18 @@ TEST(RiMotion, BlurIsSaidToBeLeftOut) {
 // A box of 1 by 1 units is 50 by 50 pixels.
 const std::string kBox = "Format 100 100 1 WorldBegin Detail [0 1 0 1 3 3] ";
 
-size_t drawn(const std::string& ranges, const std::string& before = "") {
+size_t drawn_by_ranges(const std::string& ranges, const std::string& before = "") {
     RibWorlds r(before + kBox + ranges + kSphere + "WorldEnd");
     EXPECT_EQ(r.findings(), "");
     return r.primitives().size();
 }
 
 TEST(RiDetail, RangesAreInPixelsOfTheBox) {
-    EXPECT_EQ(drawn("DetailRange 0 0 2400 2400 "), 0u);
-    EXPECT_EQ(drawn("DetailRange 2400 2400 2600 2600 "), 1u);
-    EXPECT_EQ(drawn("DetailRange [2600 2600 1e38 1e38] "), 0u);
-    EXPECT_EQ(drawn("DetailRange 0 0 2400 2400 ", "RelativeDetail .5 "), 1u);
-    EXPECT_EQ(drawn("DetailRange 0 0 1e38 1e38 "), 1u);
+    EXPECT_EQ(drawn_by_ranges("DetailRange 0 0 2400 2400 "), 0u);
+    EXPECT_EQ(drawn_by_ranges("DetailRange 2400 2400 2600 2600 "), 1u);
+    EXPECT_EQ(drawn_by_ranges("DetailRange [2600 2600 1e38 1e38] "), 0u);
+    EXPECT_EQ(drawn_by_ranges("DetailRange 0 0 2400 2400 ", "RelativeDetail .5 "), 1u);
+    EXPECT_EQ(drawn_by_ranges("DetailRange 0 0 1e38 1e38 "), 1u);
 }
 
 TEST(RiDetail, OneOfNeighboursIsDrawn) {

@@ -26,7 +26,7 @@ class RiOrientation : public testing::Test {
 };
 
 // Outwards; at (8, 7) x = y = 1/16 of the radius.
-const std::string kBall = "Translate 0 0 5 Sphere 1 -1 1 360";
+const std::string kFarBall = "Translate 0 0 5 Sphere 1 -1 1 360";
 const dvec3 kToEye(1 / 16., 1 / 16., -0.996086);
 const dvec3 kFromEye(-1 / 16., -1 / 16., 0.996086);
 // Clockwise as the eye sees it (x right, y up), so outside is towards the eye.
@@ -37,7 +37,7 @@ const dvec3 kFlat(0, 0, -1), kFlatAway(0, 0, 1);
 const std::string kPatch = "Patch \"bilinear\" \"P\" [-.5 -.5 5 .5 -.5 5 -.5 .5 5 .5 .5 5]";
 
 TEST_F(RiOrientation, SpheresPointOutwards) {
-    expect_near(normal(kBall), kToEye, .01);
+    expect_near(normal(kFarBall), kToEye, .01);
 }
 
 TEST_F(RiOrientation, PolygonsAreClockwiseFromOutside) {
@@ -54,31 +54,31 @@ TEST_F(RiOrientation, PatchesHaveTheProductOfTheirDerivatives) {
 // A mirror changes the handedness and the orientation.
 TEST_F(RiOrientation, MirrorsTurnNothingInsideOut) {
     for (const char* mirror : {"Scale -1 1 1 ", "Scale 1 -1 1 ", "Scale -1 -1 1 "}) {
-        expect_near(normal(mirror + kBall), kToEye, .01);
+        expect_near(normal(mirror + kFarBall), kToEye, .01);
         // Polygons are clockwise from outside in the space where they are given.
         expect_near(normal(mirror + kClockwise), kFlat);
         expect_near(normal(mirror + kPatch), kFlatAway);
     }
-    expect_near(normal("Scale 1 1 -1 Translate 0 0 -10 " + kBall), kToEye, .01);
+    expect_near(normal("Scale 1 1 -1 Translate 0 0 -10 " + kFarBall), kToEye, .01);
     // z turned round: what points to +z in the object points to the eye.
     expect_near(normal("Scale 1 1 -1 Translate 0 0 -10 " + kPatch), kFlat);
     expect_near(normal("Scale 1 1 -1 Translate 0 0 -10 " + kClockwise), kFlatAway);
 }
 
 TEST_F(RiOrientation, MirrorsBeforeTheWorldTurnNothingInsideOut) {
-    expect_near(normal(kBall, "Scale -1 1 1 "), kToEye, .01);
+    expect_near(normal(kFarBall, "Scale -1 1 1 "), kToEye, .01);
     expect_near(normal(kClockwise, "Scale -1 1 1 "), kFlat);
     expect_near(normal(kPatch, "Scale 1 -1 1 "), kFlatAway);
-    expect_near(normal("Scale 1 -1 1 " + kBall, "Scale -1 1 1 "), kToEye, .01);
+    expect_near(normal("Scale 1 -1 1 " + kFarBall, "Scale -1 1 1 "), kToEye, .01);
 }
 
 TEST_F(RiOrientation, OutsideInsideAndReverse) {
     for (const std::string mirror : {"", "Scale -1 1 1 "}) {
-        expect_near(normal(mirror + "Orientation \"outside\" " + kBall), kToEye, .01);
-        expect_near(normal(mirror + "Orientation \"inside\" " + kBall), kFromEye, .01);
-        expect_near(normal(mirror + "ReverseOrientation " + kBall), kFromEye, .01);
-        expect_near(normal(mirror + "ReverseOrientation ReverseOrientation " + kBall), kToEye, .01);
-        expect_near(normal(mirror + "Orientation \"inside\" ReverseOrientation " + kBall), kToEye,
+        expect_near(normal(mirror + "Orientation \"outside\" " + kFarBall), kToEye, .01);
+        expect_near(normal(mirror + "Orientation \"inside\" " + kFarBall), kFromEye, .01);
+        expect_near(normal(mirror + "ReverseOrientation " + kFarBall), kFromEye, .01);
+        expect_near(normal(mirror + "ReverseOrientation ReverseOrientation " + kFarBall), kToEye, .01);
+        expect_near(normal(mirror + "Orientation \"inside\" ReverseOrientation " + kFarBall), kToEye,
                     .01);
         expect_near(normal(mirror + "Orientation \"inside\" " + kClockwise), kFlatAway);
         expect_near(normal(mirror + "Orientation \"inside\" " + kPatch), kFlat);
@@ -86,18 +86,18 @@ TEST_F(RiOrientation, OutsideInsideAndReverse) {
 }
 
 TEST_F(RiOrientation, HandsAreAbsolute) {
-    expect_near(normal("Orientation \"lh\" " + kBall), kToEye, .01);
-    expect_near(normal("Orientation \"rh\" " + kBall), kFromEye, .01);
-    expect_near(normal("Scale -1 1 1 Orientation \"lh\" " + kBall), kFromEye, .01);
-    expect_near(normal("Scale -1 1 1 Orientation \"rh\" " + kBall), kToEye, .01);
+    expect_near(normal("Orientation \"lh\" " + kFarBall), kToEye, .01);
+    expect_near(normal("Orientation \"rh\" " + kFarBall), kFromEye, .01);
+    expect_near(normal("Scale -1 1 1 Orientation \"lh\" " + kFarBall), kFromEye, .01);
+    expect_near(normal("Scale -1 1 1 Orientation \"rh\" " + kFarBall), kToEye, .01);
     // A mirror after it changes both.
-    expect_near(normal("Orientation \"rh\" Scale -1 1 1 " + kBall), kFromEye, .01);
-    expect_near(normal("Orientation \"rh\" " + kBall, "Scale -1 1 1 "), kToEye, .01);
+    expect_near(normal("Orientation \"rh\" Scale -1 1 1 " + kFarBall), kFromEye, .01);
+    expect_near(normal("Orientation \"rh\" " + kFarBall, "Scale -1 1 1 "), kToEye, .01);
 }
 
 TEST_F(RiOrientation, AttributeBlocksRestoreIt) {
-    expect_near(normal("AttributeBegin Orientation \"inside\" AttributeEnd " + kBall), kToEye, .01);
-    expect_near(normal("TransformBegin Orientation \"inside\" TransformEnd " + kBall), kFromEye,
+    expect_near(normal("AttributeBegin Orientation \"inside\" AttributeEnd " + kFarBall), kToEye, .01);
+    expect_near(normal("TransformBegin Orientation \"inside\" TransformEnd " + kFarBall), kFromEye,
                 .01);
 }
 
@@ -133,7 +133,7 @@ TEST_F(RiOrientation, OneSideHidesWhatPointsAway) {
         EXPECT_TRUE(covers("Sides 1 " + kClockwise, mirror)) << mirror;
         EXPECT_FALSE(covers("Sides 1 " + kPatch, mirror)) << mirror;
     }
-    EXPECT_TRUE(covers("Sides 1 " + kBall));
+    EXPECT_TRUE(covers("Sides 1 " + kFarBall));
 }
 
 // The near half is hidden, the far one, at z = 5 + 0.996, is seen from within.
@@ -142,7 +142,7 @@ TEST_F(RiOrientation, OneSideOfASphereInsideOutShowsItsFarHalf) {
     for (const char* sides : {"Sides 1 ", "Sides 2 "}) {
         RibPicture r(kSmall + folder_.search() +
                      "WorldBegin Surface \"show_p\" \"space\" \"camera\" " + sides +
-                     "ReverseOrientation " + kBall + " WorldEnd");
+                     "ReverseOrientation " + kFarBall + " WorldEnd");
         const double half = std::string_view(sides) == "Sides 1 " ? 0.996086 : -0.996086;
         EXPECT_NEAR(r.at(8, 7).z, 0.5 + 0.5 * (5 + half), .01) << sides << r.findings();
     }
