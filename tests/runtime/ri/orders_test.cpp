@@ -290,13 +290,13 @@ class Orders : public testing::Test {
 };
 
 TEST_F(Orders, OfCallsThatRenderEndInErrors) {
-    for (uint32_t seed = 1; seed <= 60; ++seed) run(seed, RI_NULL, 600);
+    for (uint32_t seed = 1; seed <= 30; ++seed) run(seed, RI_NULL, 600);
     EXPECT_GT(told, 1000);
 }
 
 TEST_F(Orders, OfCallsThatWriteRibEndInErrors) {
     char ascii[] = "orders.rib", packed[] = "orders.rib.gz", nowhere[] = "no/such/folder/x.rib";
-    for (uint32_t seed = 1; seed <= 200; ++seed)
+    for (uint32_t seed = 1; seed <= 60; ++seed)
         run(seed, seed % 3 == 0 ? ascii : seed % 3 == 1 ? packed : nowhere, 600);
     EXPECT_GT(told, 1000);
 }
