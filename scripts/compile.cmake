@@ -12,7 +12,7 @@ endif()
 if(CMAKE_UNITY_BUILD)
     add_compile_options(-Wno-shadow)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-        add_compile_options(-Wshadow=local -Wno-subobject-linkage)
+        add_compile_options(-Wshadow=local $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
     endif()
 endif()
 

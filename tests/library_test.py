@@ -32,7 +32,7 @@ ALLOWED = {
     "raytrace/embree.cpp": "Embree's own faults",
     "jit/debug/jit_dump.cpp": "asked for by an environment variable",
     "jit/ir/builder.cpp": "ahead of a failed check",
-    "runtime/scene/ri/calls/errors.cpp": "RiErrorPrint and RiErrorAbort, which do that by definition",
+    "runtime/scene/ri/calls/errors.cpp": "RiErrorPrint and RiErrorAbort, which a C program chooses",
     # Names of RSL's functions, not of C's.
     "rsl/builtins/string.cpp": "stof and printf of RSL",
     "rsl/model/string_functions.cpp": "stof of RSL",

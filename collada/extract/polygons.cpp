@@ -6,7 +6,7 @@
 #include "collada/extract/polygon_shape_p.h"
 #include "collada/extract/primitives_p.h"
 #include "collada/text/numbers_p.h"
-#include "runtime/base/triangulate.h"
+#include "runtime/base/polygons/triangulate.h"
 
 namespace kinora::collada {
 

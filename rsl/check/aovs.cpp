@@ -101,7 +101,8 @@ void NamedOutputs::bind(Expr*& slot, CallExpr& e) {
 void NamedOutputs::end(ShaderDefinition& shader) {
     std::vector<Symbol*> parameters(shader.parameters.begin(), shader.parameters.end());
     for (auto& [name, symbol] : outputs_) {
-        auto same_name = [&](const Symbol* p) { return p->name == name; };
+        // Clang 14 captures no structured binding.
+        auto same_name = [&wanted = name](const Symbol* p) { return p->name == wanted; };
         if (std::none_of(parameters.begin(), parameters.end(), same_name))
             parameters.push_back(symbol);
     }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/scene/description/shader_library.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
@@ -16,7 +17,7 @@ const std::string& shown(const std::string& id, const std::string& name) {
     return id.empty() ? name : id;
 }
 
-std::string node_path(const Scene& scene, uint32_t node) {
+std::string node_path(const SceneNodes& scene, uint32_t node) {
     std::string path;
     for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
         const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
@@ -27,7 +28,7 @@ std::string node_path(const Scene& scene, uint32_t node) {
 
 // Calls f(Shader&) once for each shader that the scene runs.
 template <class F>
-void for_each_shader(const Scene& scene, F&& f) {
+void for_each_shader(const SceneShaders& scene, F&& f) {
     std::set<const rsl::Shader*> seen;
     for (const auto* instances : {&scene.shader_instances, &scene.vertex_instances})
         for (const auto& instance : *instances)

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/scene/scene.h"
-
 namespace kinora {
+
+struct Scene;
 
 struct ListedCamera {
     std::string name;    // what SceneRequest::camera takes

@@ -237,7 +237,7 @@ FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Po
     settings.stop = stop;
     double stops = request.exposure;
     if (request.auto_exposure) {
-        stops = auto_exposure(scene, pose, settings, diagnostics);
+        stops = auto_exposure(scene, scene.options, pose, settings, diagnostics);
         diagnostics.report(Code::EXPOSURE_AUTO, Location{}, stops);
     }
     settings.gain = std::exp2(stops) * (own ? own->gain : 1);

@@ -12,7 +12,7 @@
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/images/image_io.h"
 #include "runtime/scene/quality/quality.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/scene_options.h"
 
 namespace kinora {
 

@@ -99,7 +99,7 @@ CommandResult action_frame_selection(PlayerCore& core, const Arguments&) {
     if (!core.own_camera(why_not)) return refused(why_not);
     core.inspect(true, [&core, node](Inspected& inspected) -> Answer {
         const Scene& scene = inspected.scene;
-        auto [low, high] = box_of(scene, inspected.pose, find_node(scene, node));
+        auto [low, high] = box_of(scene, scene, inspected.pose, find_node(scene, node));
         return [&core, low = low, high = high] {
             if (core.state.camera.free && low.x <= high.x)
                 frame_box(core.state.camera.own, low, high, aspect_of(core));

@@ -30,7 +30,7 @@ bool is_for_importers(std::string_view name) {
 // Looked at as the picture does, and as near as the object's box allows.
 FreeCamera camera_for(const Scene& scene, const Pose& pose, const ViewOrder& view,
                       const std::string& node) {
-    auto [low, high] = box_of(scene, pose, find_node(scene, node));
+    auto [low, high] = box_of(scene, scene, pose, find_node(scene, node));
     if (!(low.x <= high.x)) low = scene.low, high = scene.high;
     FreeCamera camera = view.camera ? *view.camera : free_camera_of(pose.view, scene.origin, 1);
     frame_box(camera, low, high, double(kWidth) / kHeight);

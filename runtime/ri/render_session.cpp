@@ -8,6 +8,7 @@
 #include "runtime/ri/session.h"
 #include "runtime/scene/quality/quality.h"
 #include "runtime/scene/ri/import/interpretation.h"
+#include "runtime/scene/ri/import/merge_meshes.h"
 
 namespace kinora::ri {
 namespace {
@@ -51,6 +52,7 @@ class RenderSession : public Session {
 bool RenderSession::render(SceneDescription&& world) {
     const FilePicture picture = world.file_picture.value();
     OpenScene scene(request_, OpenScene::Keep::Nothing);
+    merge_meshes(world);
     SceneError error = scene.take(std::move(world), diagnostics_.files);
     if (error == SceneError::None) error = scene.build();
     raytrace::Film film;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {

@@ -1,12 +1,28 @@
-// runtime/scene/camera.h: the scene's camera from its definition and node.
+// runtime/scene/camera.h: a scene's cameras, and what a pose is seen by.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "raytrace/camera.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
+
+struct Pose;
+struct Scene;
+
+struct CameraSource {
+    uint32_t definition = kNone;  // kNone: the default camera
+    uint32_t node = kNone;
+    std::string name;  // as --camera takes it
+};
+
+struct SceneCameras {
+    std::vector<CameraSource> cameras;
+};
 
 // Sets Pose::view from the scene's camera as its node stands, for a picture of that size.
 raytrace::CameraStatus set_view(const Scene& scene, Pose& pose, int width, int height);

@@ -9,8 +9,8 @@ namespace kinora {
 
 namespace {
 
-void size_deforming(const Scene& scene, const Shape& shape, ShapePose& stands) {
-    const Mesh& mesh = scene.meshes[shape.mesh];
+void size_deforming(const SceneResources& scene, const Mesh& mesh, const Shape& shape,
+                    ShapePose& stands) {
     const size_t positions = mesh.positions.size(), normals = mesh.normals.size();
     resize_pages(stands.positions, positions);
     resize_pages(stands.normals, normals);
@@ -34,9 +34,9 @@ void size_deforming(const Scene& scene, const Shape& shape, ShapePose& stands) {
 
 }  // namespace
 
-void size_shape(const Scene& scene, const Shape& shape, ShapePose& stands) {
+void size_shape(const SceneResources& scene, const Mesh& mesh, const Shape& shape,
+                ShapePose& stands) {
     stands = {};
-    const Mesh& mesh = scene.meshes[shape.mesh];
     switch (shape.kind) {
         case raytrace::GeometryKind::Instanced:
             stands.shown_positions = mesh.positions;
@@ -47,14 +47,14 @@ void size_shape(const Scene& scene, const Shape& shape, ShapePose& stands) {
             stands.shown_normals = shape.normals;
             break;
         case raytrace::GeometryKind::Deforming:
-            size_deforming(scene, shape, stands);
+            size_deforming(scene, mesh, shape, stands);
             stands.shown_positions = stands.positions;
             stands.shown_normals = stands.normals;
             break;
     }
 }
 
-void size_outputs(const Scene& scene, Pose& pose) {
+void size_outputs(const SceneShapes& scene, Pose& pose) {
     pose.vertex_outputs.resize(scene.vertex_outputs.size());
     for (size_t o = 0; o < scene.vertex_outputs.size(); ++o)
         pose.vertex_outputs[o].resize(scene.vertex_outputs[o]);
@@ -75,7 +75,10 @@ Pose::Pose(const Scene& scene)
       accel(accel_policy(scene.options)),
       watch_dark(scene.watch_dark) {
     size_outputs(scene, *this);
-    for (size_t s = 0; s < shapes.size(); ++s) size_shape(scene, scene.shapes[s], shapes[s]);
+    for (size_t s = 0; s < shapes.size(); ++s) {
+        const Shape& shape = scene.shapes[s];
+        size_shape(scene, scene.meshes[shape.mesh], shape, shapes[s]);
+    }
     for (size_t s = 0; s < rows.size(); ++s)
         rows[s].positions = shapes[scene.surfaces[s].shape].shown_positions;
 }

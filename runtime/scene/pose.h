@@ -20,7 +20,10 @@
 
 namespace kinora {
 
+struct Mesh;
 struct Scene;
+struct SceneResources;
+struct SceneShapes;
 struct Shape;
 class Shading;       // runtime/picture/shading/shading.h
 struct VertexState;  // runtime/scene/vertices/vertex_work.h
@@ -93,10 +96,11 @@ struct Pose {
     uint32_t watch_dark = 0;  // frames left of Scene::watch_dark
 };
 
-// Gives what one of the scene's shapes stands in its room; what stood there goes.
-void size_shape(const Scene& scene, const Shape& shape, ShapePose& stands);
+// Gives what a shape of that mesh stands in its room; what stood there goes.
+void size_shape(const SceneResources& scene, const Mesh& mesh, const Shape& shape,
+                ShapePose& stands);
 // The same for what shaders give vertices in each frame.
-void size_outputs(const Scene& scene, Pose& pose);
+void size_outputs(const SceneShapes& scene, Pose& pose);
 
 // The numbers of an attribute, whether the file or a shader gives them.
 std::span<const float> values_of(const VertexAttribute& attribute, const Pose& pose);

@@ -9,13 +9,17 @@
 
 #include "raytrace/geometry.h"
 #include "runtime/base/math.h"
+#include "runtime/base/memory/shared_vector.h"
 #include "runtime/scene/description/scene_description.h"
+#include "runtime/scene/extent.h"
+#include "skin/morph.h"
 #include "skin/skeleton.h"
 #include "skin/skin.h"
 
 namespace kinora {
 
-class VertexWork;  // runtime/scene/vertices/vertex_work.h
+struct WatchedEdges;  // runtime/scene/vertices/dice_error.h
+class VertexWork;     // runtime/scene/vertices/vertex_work.h
 
 // Rest data of a mesh, shared by all its shapes. Positions are minus `anchor`.
 struct MeshGroup {
@@ -89,6 +93,26 @@ struct Surface {
     // Vertex inputs of the instance's varying parameters, in the order of ShaderInstance::varying.
     std::vector<const VertexAttribute*> varying;
     VertexUse transformation, displacement;
+};
+
+// What dicing made at load.
+struct DiceStats {
+    double ms = 0;
+    size_t triangles = 0, vertices = 0;
+    double pixels = 0;  // edge length used; more than asked for where the limit bound
+};
+
+// Accel space is that of the extent.
+struct SceneShapes : SceneExtent {
+    SharedVector<Mesh> meshes;
+    SharedVector<skin::Morph> morphs;
+    SharedVector<Shape> shapes;
+    SharedVector<Surface> surfaces;
+    SharedVector<raytrace::Geometry> rows;  // one a surface; a pose has those of its own vertices
+
+    DiceStats dice;
+    std::vector<std::shared_ptr<WatchedEdges>> watched;  // by displaced mesh that was diced
+    std::vector<size_t> vertex_outputs;  // floats of each attribute with VertexAttribute::output
 };
 
 }  // namespace kinora

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <glm/matrix.hpp>
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 
@@ -48,7 +49,7 @@ dmat4 current_from_owner(const Pose& pose, SpaceOwner owner) {
 
 }  // namespace
 
-dmat4 current_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+dmat4 current_from_space(const SceneNodes& scene, const Pose& pose, std::string_view name,
                          SpaceOwner owner) {
     const raytrace::Camera& view = pose.view;
     if (name == "current" || name == "camera") return dmat4(1.0);
@@ -71,7 +72,7 @@ dmat4 current_from_space(const Scene& scene, const Pose& pose, std::string_view 
     return current_from_owner(pose, owner);
 }
 
-dmat4 object_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+dmat4 object_from_space(const SceneNodes& scene, const Pose& pose, std::string_view name,
                         uint32_t object) {
     if (name == "current" || name == "object" || name == "shader") return dmat4(1.0);
     dmat4 object_from_world = glm::inverse(pose.nodes[object].world);

@@ -9,7 +9,7 @@
 namespace kinora {
 
 struct Pose;
-struct Scene;
+struct SceneNodes;
 
 // Whose "object" and "shader" space is meant: a scene node's (kNone: the world's). That of a light
 // on it is RenderMan's: x right, y up, z where the light looks, which is the node's with z
@@ -23,11 +23,11 @@ struct SpaceOwner {
 // current_from_space of a named space in a pose: "world", "camera", "current",
 // "screen", "NDC", "raster", "object"/"shader" of the owner, or a node's id. Composed in double. A
 // name that is none of these means "shader".
-dmat4 current_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+dmat4 current_from_space(const SceneNodes& scene, const Pose& pose, std::string_view name,
                          SpaceOwner owner);
 
 // The same with the space of scene node `object` as "current": what vertices are displaced in.
-dmat4 object_from_space(const Scene& scene, const Pose& pose, std::string_view name,
+dmat4 object_from_space(const SceneNodes& scene, const Pose& pose, std::string_view name,
                         uint32_t object);
 
 }  // namespace kinora

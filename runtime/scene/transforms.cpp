@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "runtime/base/transform_matrix.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 
@@ -38,7 +40,7 @@ bool is_finite(const dmat4& m) {
     return true;
 }
 
-dmat4 path_conversion(const Scene& scene, uint32_t node) {
+dmat4 path_conversion(const SceneNodes& scene, uint32_t node) {
     dmat4 m(1.0);
     for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent)
         m = scene.nodes[n].conversion * m;
@@ -51,7 +53,7 @@ double unit_of(const dmat4& conversion) {
 
 namespace {
 
-void update_node(const Scene& scene, Pose& pose, uint32_t n) {
+void update_node(const SceneNodes& scene, Pose& pose, uint32_t n) {
     const Node& node = scene.nodes[n];
     NodePose& stands = pose.nodes[n];
     bool own = pose.changed[node.definition / 64] >> (node.definition % 64) & 1;
@@ -68,7 +70,7 @@ void update_node(const Scene& scene, Pose& pose, uint32_t n) {
 
 }  // namespace
 
-void update_transforms(const Scene& scene, Pose& pose) {
+void update_transforms(const SceneNodes& scene, Pose& pose) {
     if (pose.first_frame) {
         for (uint32_t n = 0; n < scene.nodes.size(); ++n) update_node(scene, pose, n);
         pose.rest_finite = true;
@@ -86,7 +88,7 @@ void rest_nodes(Pose& pose) {
     for (NodePose& node : pose.nodes) node.moved = false;
 }
 
-void find_moving_parts(Scene& scene) {
+void find_moving_parts(SceneNodes& scene, const SceneShapes& placed) {
     MovingParts parts;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         if (scene.nodes[n].can_move) parts.nodes.push_back(n);
@@ -95,10 +97,10 @@ void find_moving_parts(Scene& scene) {
                (shape.kind == raytrace::GeometryKind::Instanced &&
                 scene.nodes[shape.node].can_move);
     };
-    for (uint32_t s = 0; s < scene.shapes.size(); ++s)
-        if (moves(scene.shapes[s])) parts.shapes.push_back(s);
-    for (uint32_t s = 0; s < scene.surfaces.size(); ++s)
-        if (moves(scene.shapes[scene.surfaces[s].shape])) parts.surfaces.push_back(s);
+    for (uint32_t s = 0; s < placed.shapes.size(); ++s)
+        if (moves(placed.shapes[s])) parts.shapes.push_back(s);
+    for (uint32_t s = 0; s < placed.surfaces.size(); ++s)
+        if (moves(placed.shapes[placed.surfaces[s].shape])) parts.surfaces.push_back(s);
     scene.moving = std::move(parts);
 }
 

@@ -8,7 +8,8 @@
 namespace kinora {
 
 struct Pose;
-struct Scene;
+struct SceneNodes;
+struct SceneShapes;
 
 // The matrix of one operation; `v` starts at its values. Angles in degrees. COLLADA 1.4.1 chapter
 // 5: rotate about an axis (zero axis: identity), lookat (eye, interest, up), skew (angle, rotated
@@ -24,17 +25,17 @@ mat3 normal_matrix(const dmat4& m, bool mirrored);
 
 // Brings Pose::nodes up to date: those whose definition's bit is set, and what hangs below them.
 // A matrix that is not finite becomes all zero.
-void update_transforms(const Scene& scene, Pose& pose);
+void update_transforms(const SceneNodes& scene, Pose& pose);
 
 // Lets all nodes rest; at the end of a pose's first frame.
 void rest_nodes(Pose& pose);
 
-// Fills Scene::moving; when its nodes, shapes and surfaces are known.
-void find_moving_parts(Scene& scene);
+// Fills SceneNodes::moving; when its nodes, shapes and surfaces are known.
+void find_moving_parts(SceneNodes& scene, const SceneShapes& placed);
 
 // The product of the conversions on the way to the node: from the document it is written in into
 // the scene's units and axes.
-dmat4 path_conversion(const Scene& scene, uint32_t node);
+dmat4 path_conversion(const SceneNodes& scene, uint32_t node);
 // Units behind such a matrix in one unit before it.
 double unit_of(const dmat4& conversion);
 

@@ -2,12 +2,13 @@
 #include "runtime/scene/values.h"
 
 #include "runtime/scene/description/display_color.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {
 
-void evaluate(const Scene& scene, Pose& pose, double time) {
+void evaluate(const SceneResources& scene, Pose& pose, double time) {
     const SceneDescription& description = *scene.description;
     std::vector<double>& values = pose.values;
     anim::evaluate(description.animation, time, values, pose.changed, scene.baked_samplers);
@@ -19,7 +20,7 @@ void evaluate(const Scene& scene, Pose& pose, double time) {
     pose.time = time;
 }
 
-void evaluate_anew(const Scene& scene, Pose& pose, std::optional<double> time) {
+void evaluate_anew(const SceneNodes& scene, Pose& pose, std::optional<double> time) {
     const SceneDescription& description = *scene.description;
     pose.values = description.values;
     size_t owners = description.nodes.size() + description.morphs.size() + 1;
@@ -30,19 +31,18 @@ void evaluate_anew(const Scene& scene, Pose& pose, std::optional<double> time) {
     update_transforms(scene, pose);
 }
 
-void take_added_values(Scene& scene) {
-    SceneDescription& description = *scene.description;
+void take_added_values(SceneDescription& description, Pose& start) {
     description.animated.resize(description.values.size(), false);
-    std::vector<double>& values = scene.start.values;
+    std::vector<double>& values = start.values;
     values.insert(values.end(), description.values.begin() + ptrdiff_t(values.size()),
                   description.values.end());
 }
 
-void take_added(const Scene& scene, Pose& pose) {
-    const std::vector<double>& values = scene.start.values;
+void take_added(const SceneNodes& scene, const Pose& start, Pose& pose) {
+    const std::vector<double>& values = start.values;
     pose.values.insert(pose.values.end(), values.begin() + ptrdiff_t(pose.values.size()),
                        values.end());
-    pose.changed.resize(scene.start.changed.size(), 0);
+    pose.changed.resize(start.changed.size(), 0);
     for (size_t n = pose.nodes.size(); n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         dmat4 world =

@@ -1,5 +1,5 @@
 // tests/collada/triangulate_test.cpp: random concave polygons against area and inside tests.
-#include "runtime/base/triangulate.h"
+#include "runtime/base/polygons/triangulate.h"
 
 #include <gtest/gtest.h>
 

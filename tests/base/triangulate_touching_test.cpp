@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "runtime/base/triangulate.h"
+#include "runtime/base/polygons/triangulate.h"
 
 namespace kinora {
 namespace {

@@ -11,7 +11,7 @@ namespace kinora {
 namespace {
 
 double auto_stops(Rendering& r) {
-    return auto_exposure(*r.scene, *r.pose, r.settings, r.diagnostics);
+    return auto_exposure(*r.scene, r.scene->options, *r.pose, r.settings, r.diagnostics);
 }
 
 TEST(Exposure, MultipliesColorsAndLeavesCoverageAndBackground) {

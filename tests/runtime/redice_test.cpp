@@ -277,13 +277,13 @@ TEST(Redice, IsForACameraThatAUserMoves) {
     raytrace::Camera moved = r.pose->view;
     moved.eye += dvec3(0.8, -0.5, -5.6);
     r.pose->view = moved;
-    EXPECT_GT(dice_error(*r.scene, *r.pose), 2);
+    EXPECT_GT(dice_error(*r.scene->description, *r.scene, *r.pose), 2);
     auto closer = r.redicer->make({0, moved}, r.diagnostics);
     ASSERT_TRUE(closer);
     EXPECT_LE(r.error(closer, 0), 1.0001);
     closer.pose->view = moved;
-    EXPECT_LE(dice_error(*closer.scene, *closer.pose), 1.0001);
-    EXPECT_GT(dice_error(*closer.scene, *closer.pose), 0.5);
+    EXPECT_LE(dice_error(*closer.scene->description, *closer.scene, *closer.pose), 1.0001);
+    EXPECT_GT(dice_error(*closer.scene->description, *closer.scene, *closer.pose), 0.5);
 }
 
 TEST(Redice, LetsAFrameGoThatIsTooCoarseAndLeavesTheNextOnesAlone) {

@@ -9,6 +9,7 @@
 #include "runtime/picture/frame/frame.h"
 #include "runtime/scene/dae/import.h"
 #include "runtime/scene/load/import_scene.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -5,10 +5,12 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/scene/pose.h"
 #include "runtime/scene/quality/quality.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Scene;
 
 struct Explained {
     std::string_view section;  // "meshes"

@@ -41,6 +41,10 @@ bool find_sphere(const Scene& scene, const Pose& pose, uint32_t index, Sphere& s
     return std::isfinite(sphere.radius);
 }
 
+LightReach reach_of(const Scene& scene, const Pose& pose, const LightSource& source) {
+    return LightBindings::reach(scene, pose, *scene.shader_instances[source.look]);
+}
+
 // Why no surface in the look is lit by the light; "" where one may be.
 std::string why_unlit(const Scene& scene, const Pose& pose, const LightBindings& bindings,
                       uint32_t look, size_t light) {
@@ -50,7 +54,7 @@ std::string why_unlit(const Scene& scene, const Pose& pose, const LightBindings&
     if (!bindings.binding(look, light).seen)
         return bindings.directed(light) ? "its shader asks for other categories"
                                         : "its shader does not ask for ambient light";
-    const LightReach reach = bindings.reach(scene, pose, light);
+    const LightReach reach = reach_of(scene, pose, scene.lights[light]);
     if (reach.black) return "it is black";
     if (!reach.bounded()) return "";
     for (const Surface& surface : scene.surfaces) {
@@ -80,12 +84,13 @@ void explain_look(const Scene& scene, const Pose& pose, const LightBindings& bin
 }  // namespace
 
 void explain_lights(const Scene& scene, const Pose& pose, ExplainedRows& rows) {
-    const LightBindings bindings(scene);
+    const LightBindings bindings(scene, scene, scene);
     for (size_t l = 0; l < scene.lights.size(); ++l) {
         const LightSource& source = scene.lights[l];
         const std::string subject = light_name(scene, source);
         const auto statements = bindings.statements(l);
-        if (bindings.reach(scene, pose, l).black) {
+        const LightReach reach = reach_of(scene, pose, source);
+        if (reach.black) {
             rows.leave_out(subject, "not run", "it is black at this time");
             continue;
         }
@@ -96,12 +101,11 @@ void explain_lights(const Scene& scene, const Pose& pose, ExplainedRows& rows) {
         }
         const bool wide =
             std::ranges::any_of(statements, [](const auto& s) { return s.spread >= 0; });
-        rows.add(
-            subject,
-            source.surface != kNone ? "an area light, by samples"
-            : wide                  ? "a cone of the sky, by samples"
-                                    : "one direction a point",
-            bindings.reach(scene, pose, l).bounded() ? "within its cone or range" : "everywhere");
+        rows.add(subject,
+                 source.surface != kNone ? "an area light, by samples"
+                 : wide                  ? "a cone of the sky, by samples"
+                                         : "one direction a point",
+                 reach.bounded() ? "within its cone or range" : "everywhere");
         if (std::ranges::any_of(statements, [](const auto& s) { return s.casts_shadow; })) continue;
         const LightDefinition& light = scene.description->lights[source.definition];
         rows.leave_out(subject, "no automatic shadow rays",

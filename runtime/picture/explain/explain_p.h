@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runtime/picture/explain/explain.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

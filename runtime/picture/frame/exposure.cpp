@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/scene/scene_options.h"
+
 namespace kinora {
 
 namespace {
@@ -22,8 +24,8 @@ void add_levels(const raytrace::Film& film, std::vector<float>& levels) {
 
 }  // namespace
 
-double auto_exposure(const Scene& scene, Pose& pose, const FrameSettings& settings,
-                     Diagnostics& diagnostics) {
+double auto_exposure(const Scene& scene, const SceneOptions& options, Pose& pose,
+                     const FrameSettings& settings, Diagnostics& diagnostics) {
     FrameSettings trial = settings;
     double scale = double(kSide) / std::max({settings.width, settings.height, 1});
     trial.width = std::max(int(std::lround(settings.width * scale)), 1);
@@ -34,7 +36,7 @@ double auto_exposure(const Scene& scene, Pose& pose, const FrameSettings& settin
     trial.integrator.seed = 0;
     trial.integrator.background.reset();
     trial.integrator.nan = raytrace::NanPolicy::Zero;
-    double start = scene.options.start_time, length = scene.options.end_time - start;
+    double start = options.start_time, length = options.end_time - start;
     raytrace::Film film;
     std::vector<float> levels;
     for (int t = 0; t < (length > 0 ? kTimes : 1); ++t) {

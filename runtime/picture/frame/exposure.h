@@ -5,10 +5,12 @@
 
 namespace kinora {
 
+struct SceneOptions;
+
 // Stops (powers of two, to a tenth) that bring the pictures of the scene's range to a good
 // brightness: four fifths of what is seen stay below 0.6. One number for all frames, which does not
 // depend on which of them are rendered; by small pictures of 13 times. 0 where nothing is lit.
-double auto_exposure(const Scene& scene, Pose& pose, const FrameSettings& settings,
-                     Diagnostics& diagnostics);
+double auto_exposure(const Scene& scene, const SceneOptions& options, Pose& pose,
+                     const FrameSettings& settings, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -9,6 +9,7 @@
 #include "runtime/base/stats.h"
 #include "runtime/picture/frame/report_p.h"
 #include "runtime/scene/camera.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 #include "runtime/scene/vertices/deform.h"
@@ -156,7 +157,7 @@ bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings
         StageTimer timer(stats.skin);
         StageScope stage(Stage::Skin);
         pose_joints(scene, pose);
-        stats.dice_error = dice_error(scene, pose);
+        stats.dice_error = dice_error(*scene.description, scene, pose);
         stats.too_coarse =
             settings.most_dice_error > 0 && stats.dice_error > settings.most_dice_error;
         // What changed stays marked, so that the next frame moves it.

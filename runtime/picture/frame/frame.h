@@ -9,9 +9,11 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/insight.h"
 #include "runtime/picture/shading/shading.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Pose;
+struct Scene;
 
 // What one frame cost; times in ms of wall clock.
 struct FrameStats {

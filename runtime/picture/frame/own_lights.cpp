@@ -11,6 +11,7 @@
 #include "runtime/scene/build/shapes/bounds.h"
 #include "runtime/scene/camera.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
@@ -77,7 +78,7 @@ bool light_black_scene(Scene& scene, Pose& pose, Diagnostics& diagnostics) {
     const LightSource& first = scene.lights.front();
     diagnostics.report(Code::LIGHTS_BLACK, scene.description->lights[first.definition].where);
     if (!add_default_lights(scene, diagnostics)) return false;
-    take_added(scene, pose);
+    take_added(scene, scene.start, pose);
     pose.watch_dark = scene.watch_dark;
     pose.shading.reset();
     return true;

@@ -1,9 +1,12 @@
 // runtime/picture/frame/own_lights.h: scenes that their own lights leave black.
 #pragma once
 
-#include "runtime/scene/scene.h"
+#include "runtime/base/diagnostic.h"
 
 namespace kinora {
+
+struct Pose;
+struct Scene;
 
 // Adds the default lights, with LIGHTS_BLACK, where the file's own leave nearly all that the camera
 // sees black at each of the times that stand for the range played. Small pictures tell, so it

@@ -6,6 +6,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/texture_store.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/shader_instance.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/vertices/deform.h"

@@ -14,7 +14,6 @@
 #include <glm/geometric.hpp>
 
 #include "raytrace/sampling.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -31,35 +30,33 @@ vec2 on_triangle(float x, float y) {
 
 }  // namespace
 
-uint32_t light_samples(const Scene& scene, size_t light) {
-    const uint32_t own = scene.description->lights[scene.lights[light].definition].samples;
-    return scene.options.quality.light_samples ? scene.options.quality.light_samples
-           : own                               ? own
-                                               : kDefaultSamples;
+uint32_t light_samples(const ShadingFrame& frame, size_t light) {
+    const LightSource& source = frame.lights.lights[light];
+    const uint32_t own = frame.resources.description->lights[source.definition].samples;
+    return frame.quality.light_samples ? frame.quality.light_samples : own ? own : kDefaultSamples;
 }
 
 AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings) : frame_(frame) {
-    const Scene& scene = frame.scene;
-    for (size_t l = 0; l < scene.lights.size(); ++l) {
-        const LightSource& source = scene.lights[l];
+    for (size_t l = 0; l < frame.lights.lights.size(); ++l) {
+        const LightSource& source = frame.lights.lights[l];
         auto& light = lights_.emplace_back();
         if (source.surface == kNone) continue;
         light = std::make_unique<AreaLight>();
         light->surface = source.surface;
         if (!bindings.directed(l)) continue;
-        light->samples = light_samples(scene, l);
+        light->samples = light_samples(frame, l);
     }
 }
 
 void AreaLights::begin_frame() {
-    const Scene& scene = frame_.scene;
+    const SceneShapes& shapes = frame_.shapes;
     for (auto& light : lights_) {
         if (!light) continue;
-        const Surface& surface = scene.surfaces[light->surface];
-        const Shape& shape = scene.shapes[surface.shape];
+        const Surface& surface = shapes.surfaces[light->surface];
+        const Shape& shape = shapes.shapes[surface.shape];
         const ShapePose& stands = frame_.pose.shapes[surface.shape];
         if (light->known && shape.kind == raytrace::GeometryKind::Static) continue;
-        const auto& triangles = scene.meshes[shape.mesh].groups[surface.group].triangles;
+        const auto& triangles = shapes.meshes[shape.mesh].groups[surface.group].triangles;
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
         dmat3 linear = instanced ? dmat3(stands.world) : dmat3(1.0);
         light->below.resize(triangles.size() / 3);

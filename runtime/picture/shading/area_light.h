@@ -51,7 +51,7 @@ struct AreaLight {
 };
 
 // Samples of lights that have an extent: of those on geometry and of solar with an angle.
-uint32_t light_samples(const Scene& scene, size_t light);
+uint32_t light_samples(const ShadingFrame& frame, size_t light);
 
 class AreaLights {
   public:

@@ -9,7 +9,6 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/point_store.h"
-#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/point_queries.h"
 
 namespace kinora {
@@ -102,16 +101,16 @@ void Bakes::flush(bool whole, Diagnostics& diagnostics) {
         size_t end = begin + 1;
         while (end < all.size() && all[end]->file == all[begin]->file) ++end;
         const std::string& name = rsl::interned(all[begin]->file);
-        auto [path, outside] = scene_.description->writable.find(name);
+        auto [path, outside] = resources_.description->writable.find(name);
         std::string error =
             outside ? "it lies outside the scene's folder (--allow-external DIR lets it be written)"
                     : write_point_file(path, joined({all.data() + begin, end - begin}));
         if (!error.empty()) diagnostics.report(Code::FRAME_UNWRITABLE, Location{}, path, error);
-        scene_.points->forget(name);
+        resources_.points->forget(name);
         begin = end;
     }
     for (auto& points : points_) points.clear();
-    for (auto& [path, error] : scene_.points->take_errors())
+    for (auto& [path, error] : resources_.points->take_errors())
         if (reported_.insert(path).second)
             diagnostics.report(Code::POINT_FILE_UNREADABLE, Location{}, path, error);
 }

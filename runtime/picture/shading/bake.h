@@ -21,7 +21,7 @@ struct BakedPoint {
 
 class Bakes {
   public:
-    Bakes(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
+    Bakes(const SceneResources& resources, const Pose& pose) : resources_(resources), pose_(pose) {}
     void begin_frame(size_t threads);
     // A call at a grid's points: kept with their pixels.
     void add(const Grid& grid, const jit::ServiceCall& call);
@@ -30,7 +30,7 @@ class Bakes {
     void flush(bool whole, Diagnostics& diagnostics);
 
   private:
-    const Scene& scene_;
+    const SceneResources& resources_;
     const Pose& pose_;
     std::vector<std::vector<BakedPoint>> points_;  // by thread
     std::set<std::string> reported_;               // files that could not be read

@@ -10,7 +10,6 @@
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/rays/map_light.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -154,7 +153,7 @@ const EnvironmentTable* GatherRays::table_of(int32_t map) {
         std::vector<vec3> directions(EnvironmentTable::kCells), light(EnvironmentTable::kCells);
         for (uint32_t c = 0; c < EnvironmentTable::kCells; ++c)
             directions[c] = EnvironmentTable::middle(c);
-        light_of_map(*frame_.scene.textures, map, directions, EnvironmentTable::kWidth,
+        light_of_map(*frame_.resources.textures, map, directions, EnvironmentTable::kWidth,
                      light.data());
         std::vector<float> brightness;
         for (vec3 c : light) brightness.push_back(c.x + c.y + c.z);
@@ -285,8 +284,8 @@ void GatherRays::Call::record(const SampleSpan& samples, std::span<Sent> sent,
             continue;
         }
         if (map)
-            light_of_map(*all_.frame_.scene.textures, map, {&dir, 1}, over.width(facts.solid_angle),
-                         &facts.map_color);
+            light_of_map(*all_.frame_.resources.textures, map, {&dir, 1},
+                         over.width(facts.solid_angle), &facts.map_color);
         record_ray(records_, of_ray_, k, lane, facts);
     }
 }

@@ -14,7 +14,6 @@
 #include "runtime/picture/columns/sixteen_points.h"
 #include "runtime/scene/description/affine_map.h"
 #include "runtime/scene/kernels/point_source.h"
-#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/corner.h"
 #include "runtime/scene/spaces.h"
 #include "runtime/scene/transforms.h"
@@ -73,7 +72,7 @@ class HitSource : public PointSource {
     HitSource(Grid& grid, const mat3& rotation, vec3 eye)
         : grid_(grid),
           hits_(grid.hits),
-          scene_(grid.scene),
+          scene_(grid.frame.shapes),
           pose_(grid.pose),
           rotation_(rotation),
           eye_(eye) {
@@ -448,8 +447,9 @@ class HitSource : public PointSource {
 
     void matrices(size_t begin, size_t end) const {
         // A volume belongs to a node of its own, not to the surface behind it.
-        dmat4 to = volume_ ? current_from_space(scene_, pose_, "object", grid_.look->node)
-                           : pose_.view.camera_from_world * pose_.nodes[shape_->node].world;
+        dmat4 to = volume_
+                       ? current_from_space(grid_.frame.nodes, pose_, "object", grid_.look->node)
+                       : pose_.view.camera_from_world * pose_.nodes[shape_->node].world;
         mat4 to_current(to), from_current(glm::inverse(to));
         for (size_t r = 0; r < 3; ++r)
             for (size_t c = 0; c < 4; ++c) {
@@ -464,7 +464,7 @@ class HitSource : public PointSource {
 
     Grid& grid_;
     const raytrace::HitBatch& hits_;
-    const Scene& scene_;
+    const SceneShapes& scene_;
     const Pose& pose_;
     const ColumnKernels& kernels_ = column_kernels();
     mat3 rotation_;

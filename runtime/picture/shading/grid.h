@@ -29,12 +29,11 @@ using jit::padded;
 struct Grid : PicturePoints {
     Grid(const ShadingFrame& f, ThreadMemory& m, const raytrace::HitBatch& h,
          std::span<const uint32_t> p, const ShaderInstance* l)
-        : PicturePoints{f, h, p, l}, frame(f), memory(m), scene(f.scene), pose(f.pose) {}
+        : PicturePoints{f, h, p, l}, frame(f), memory(m), pose(f.pose) {}
     Grid(const Grid&) = delete;
 
     const ShadingFrame& frame;
     ThreadMemory& memory;
-    const Scene& scene;
     const Pose& pose;
     bool dense = false;      // hits one behind the other
     bool ascending = false;  // their numbers grow

@@ -12,7 +12,6 @@
 #include "runtime/picture/shading/insight.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/shading_frame.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -21,8 +20,8 @@ namespace {
 // Precise kernels run in the IEEE default, fast ones flush denormals
 // (docs/decisions.md#exact-arithmetic).
 struct DenormalMode {
-    explicit DenormalMode(const Scene& scene) {
-        if (scene.options.quality.math == jit::math::Tier::Fast) flush.emplace();
+    explicit DenormalMode(const Quality& quality) {
+        if (quality.math == jit::math::Tier::Fast) flush.emplace();
     }
     std::optional<raytrace::DenormalGuard> flush;
 };
@@ -65,12 +64,11 @@ struct HitShader::Call {
 void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
                       raytrace::ShadeResult& result, const HitOutputs* outputs) {
     StageScope stage(Stage::Gather);
-    const Scene& scene = frame_.scene;
     Arena& arena = memory.arena;
     Arena::Mark mark = arena.mark();
-    DenormalMode mode(scene);
+    DenormalMode mode(frame_.quality);
     Call call{hits, ray, memory, result, outputs};
-    std::span<const LookRun> runs = runs_by_look(scene, hits, arena);
+    std::span<const LookRun> runs = runs_by_look(frame_, hits, arena);
     // Small grids of several looks are lit together, so that their shadow rays fill packets.
     std::span<Grid*> lit = arena.allocate_span<Grid*>(runs.size());
     size_t grids = 0, points = 0;
@@ -124,7 +122,7 @@ size_t drop_lit(const Grid& grid, std::span<uint32_t> dark) {
         vec3 seen_along = grid.frame.camera_from_accel * triple(grid.hits.dir, grid.points[i]);
         if (glm::dot(N[i], seen_along) > 0) N[i] = -N[i];
     }
-    const float least = std::max(kBlack, grid.frame.scene.world_light);
+    const float least = std::max(kBlack, grid.frame.lights.world_light);
     const jit::RecordSet& set = grid.record_sets[0];
     for (int32_t r = 0; r < set.count && !dark.empty(); ++r) {
         const jit::Record& record = set.records[r];
@@ -148,7 +146,7 @@ void HitShader::count_dark(const Grid& grid, const raytrace::ShadeResult& result
     ShadingCounters& counters = grid.memory.counters;
     std::span<uint32_t> dark = grid.memory.arena.allocate_span<uint32_t>(grid.count());
     size_t count = 0;
-    const float most = kBlack + frame_.scene.world_light;
+    const float most = kBlack + frame_.lights.world_light;
     for (uint32_t i = 0; i < grid.count(); ++i) {
         uint32_t hit = grid.points[i];
         if (!(largest(result.Oi, hit) > 0)) continue;
@@ -238,7 +236,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
 // Nothing lies there, so a volume begins with Ci and Oi of 0; without one they stay so.
 void HitShader::shade_misses(const raytrace::HitBatch& ends, const RayTag& ray,
                              ThreadMemory& memory, raytrace::ShadeResult& result) {
-    DenormalMode mode(frame_.scene);
+    DenormalMode mode(frame_.quality);
     for (size_t k = 0; k < 3; ++k) {
         std::fill_n(result.Ci[k], ends.count, 0.0f);
         std::fill_n(result.Oi[k], ends.count, 0.0f);

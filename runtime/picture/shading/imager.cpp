@@ -13,7 +13,6 @@
 
 #include "raytrace/sampling.h"
 #include "runtime/base/parallel.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -50,13 +49,13 @@ raytrace::HitBatch no_hits(const raytrace::Film& film, size_t first, size_t coun
 }
 
 // Planes of the film that an imager's parameter reads: one a component.
-const float* plane_of(const Scene& scene, const raytrace::Film& film, const VaryingParam& param,
-                      uint32_t component) {
+const float* plane_of(const SceneShaders& shaders, const raytrace::Film& film,
+                      const VaryingParam& param, uint32_t component) {
     const float* whole = nullptr;  // of a parameter that surfaces give as one float
-    for (size_t p = 0; p < scene.outputs.size(); ++p) {
-        if (scene.outputs[p].parameter != param.name || scene.outputs[p].element > 0) continue;
-        if (scene.outputs[p].component == component) return film.aovs[p].values.data();
-        if (scene.outputs[p].component == 0) whole = film.aovs[p].values.data();
+    for (size_t p = 0; p < shaders.outputs.size(); ++p) {
+        if (shaders.outputs[p].parameter != param.name || shaders.outputs[p].element > 0) continue;
+        if (shaders.outputs[p].component == component) return film.aovs[p].values.data();
+        if (shaders.outputs[p].component == 0) whole = film.aovs[p].values.data();
     }
     return whole;
 }
@@ -99,8 +98,8 @@ bool writes(const ShaderInstance& look, rsl::Global global) {
 
 size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
                           raytrace::NanPolicy nan) {
-    const Scene& scene = frame_.scene;
-    const ShaderInstance& look = *scene.shader_instances[scene.imager];
+    const SceneShaders& shaders = frame_.shaders;
+    const ShaderInstance& look = *shaders.shader_instances[shaders.imager];
     ThreadMemory& memory = *threads_[size_t(thread_index())];
     Arena& arena = memory.arena;
     Arena::Mark mark = arena.mark();
@@ -130,7 +129,7 @@ size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
     fill(kColAlpha, [&](size_t i) { return film.rgba[first + i].w; });
     for (const VaryingParam& param : look.varying)
         for (uint32_t c = 0; c < param.components; ++c)
-            if (const float* plane = plane_of(scene, film, param, c))
+            if (const float* plane = plane_of(shaders, film, param, c))
                 fill(param.column + c, [&](size_t i) { return plane[first + i]; });
     std::span<float*> out = kernels_.run(look.full, grid);
     ImagerOutputs outputs = find_outputs(look.full.kernel());

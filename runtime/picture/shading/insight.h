@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/picture/shading/first_hits/first_hits.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
 

@@ -10,7 +10,6 @@
 #include "runtime/picture/lights/kernels.h"
 #include "runtime/picture/shading/grid_host.h"
 #include "runtime/scene/description/findings.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -29,8 +28,8 @@ const FrameBlock& block_of(const ShadingFrame& frame, const ShaderInstance& look
 
 // Calls f(look, bound kernel) for each kernel of all looks.
 template <class F>
-void for_each_kernel(const Scene& scene, F&& f) {
-    for (const auto& look : scene.shader_instances) {
+void for_each_kernel(const SceneShaders& shaders, F&& f) {
+    for (const auto& look : shaders.shader_instances) {
         f(*look, look->full);
         if (look->opacity) f(*look, *look->opacity);
     }
@@ -42,21 +41,21 @@ void KernelRunner::begin_frame(size_t threads) {
     faults_.resize(std::max(faults_.size(), threads));
     for (auto& faults : faults_) {
         for (auto& row : faults) std::ranges::fill(row, uint8_t(0));
-        if (faults.size() == 2 * scene_.shader_instances.size()) continue;
-        faults.resize(2 * scene_.shader_instances.size());
-        for_each_kernel(scene_, [&](const ShaderInstance& look, const BoundKernel& bound) {
+        if (faults.size() == 2 * frame_.shaders.shader_instances.size()) continue;
+        faults.resize(2 * frame_.shaders.shader_instances.size());
+        for_each_kernel(frame_.shaders, [&](const ShaderInstance& look, const BoundKernel& bound) {
             faults[fault_row(look, bound)].assign(bound.kernel().fault_sites.size(), 0);
         });
     }
 }
 
 void KernelRunner::report_faults(Diagnostics& diagnostics) const {
-    for (const auto& look : scene_.shader_instances)
+    for (const auto& look : frame_.shaders.shader_instances)
         if (const InstanceFrame& of = frame_.instances[look->index];
             of.prints_asked > of.prints_shown)
             diagnostics.report(Code::PRINT_LIMIT, Location{}, look->shader().name, of.prints_asked,
                                of.prints_shown);
-    for_each_kernel(scene_, [&](const ShaderInstance& look, const BoundKernel& bound) {
+    for_each_kernel(frame_.shaders, [&](const ShaderInstance& look, const BoundKernel& bound) {
         const size_t row = fault_row(look, bound);
         auto faulted = [&](size_t site) {
             return std::any_of(faults_.begin(), faults_.end(),
@@ -151,7 +150,7 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
     Arena& arena = grid.memory.arena;
     std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
     GridHost host(grid, services_);
-    const jit::Target* target = scene_.options.target;
+    const jit::Target* target = frame_.resources.options.target;
     const auto lanes = size_t((target ? *target : jit::best_target()).lanes);
     grid.memory.counters.kernel_points += grid.count();
     grid.memory.counters.kernel_lanes += (grid.count() + lanes - 1) / lanes * lanes;
@@ -218,10 +217,11 @@ void sort_by_place(const raytrace::HitBatch& hits, std::span<const uint32_t> loo
 }
 
 // The look of each hit; whether it is the same for all.
-bool find_looks(const Scene& scene, const raytrace::HitBatch& hits, std::span<uint32_t> look) {
+bool find_looks(const SceneShapes& shapes, const raytrace::HitBatch& hits,
+                std::span<uint32_t> look) {
     uint32_t differs = 0;
     for (size_t i = 0; i < hits.count; ++i) {
-        look[i] = scene.surfaces[hits.instance[i]].look;
+        look[i] = shapes.surfaces[hits.instance[i]].look;
         differs |= look[i] ^ look[0];
     }
     return differs == 0;
@@ -229,30 +229,30 @@ bool find_looks(const Scene& scene, const raytrace::HitBatch& hits, std::span<ui
 
 }  // namespace
 
-std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
+std::span<const LookRun> runs_by_look(const ShadingFrame& frame, const raytrace::HitBatch& hits,
                                       Arena& arena) {
     std::span<uint32_t> look = arena.allocate_span<uint32_t>(hits.count);
-    const bool alike = find_looks(scene, hits, look);
+    const bool alike = find_looks(frame.shapes, hits, look);
     std::span<uint32_t> order = arena.allocate_span<uint32_t>(hits.count);
     constexpr size_t kScattered = 64;  // hits from which their places are worth an order
-    const bool by_place =
-        hits.depth > 0 && hits.count >= kScattered && hits.count >= scene.shader_instances.size();
+    const bool by_place = hits.depth > 0 && hits.count >= kScattered &&
+                          hits.count >= frame.shaders.shader_instances.size();
     if (alike && !by_place)
         std::iota(order.begin(), order.end(), 0u);
-    else if (hits.count < scene.shader_instances.size())
+    else if (hits.count < frame.shaders.shader_instances.size())
         sort_few(look.data(), order);
     else if (by_place)
-        sort_by_place(hits, look, scene.shader_instances.size(), order, arena);
+        sort_by_place(hits, look, frame.shaders.shader_instances.size(), order, arena);
     else
-        sort_by_counting(look.data(), scene.shader_instances.size(), order, arena);
+        sort_by_counting(look.data(), frame.shaders.shader_instances.size(), order, arena);
     std::span<LookRun> runs =
-        arena.allocate_span<LookRun>(std::min(hits.count, scene.shader_instances.size()));
+        arena.allocate_span<LookRun>(std::min(hits.count, frame.shaders.shader_instances.size()));
     size_t count = 0;
     for (size_t begin = 0, end; begin < hits.count; begin = end) {
         uint32_t own = look[order[begin]];
         for (end = begin + 1; end < hits.count && look[order[end]] == own;) ++end;
-        runs[count++] = {scene.shader_instances[own].get(), order.subspan(begin, end - begin),
-                         !by_place};
+        runs[count++] = {frame.shaders.shader_instances[own].get(),
+                         order.subspan(begin, end - begin), !by_place};
     }
     return runs.first(count);
 }

@@ -18,7 +18,7 @@ class KernelRunner {
   public:
     // `services` answer the kernels' calls.
     KernelRunner(const ShadingFrame& frame, const GridServices& services)
-        : frame_(frame), scene_(frame.scene), services_(services) {}
+        : frame_(frame), services_(services) {}
 
     // Forgets all faults.
     void begin_frame(size_t threads);
@@ -36,7 +36,6 @@ class KernelRunner {
 
   private:
     const ShadingFrame& frame_;
-    const Scene& scene_;
     const GridServices& services_;
     std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]
 };
@@ -54,7 +53,7 @@ struct LookRun {
 };
 // All of a batch's, by the number of the look; from the arena. The cost does not depend on how many
 // looks a scene has, but where there are more hits than looks.
-std::span<const LookRun> runs_by_look(const Scene& scene, const raytrace::HitBatch& hits,
+std::span<const LookRun> runs_by_look(const ShadingFrame& frame, const raytrace::HitBatch& hits,
                                       Arena& arena);
 
 // Memory for the colours of that many hits.

@@ -14,7 +14,6 @@
 #include "runtime/picture/columns/kernels.h"
 #include "runtime/picture/shading/rays/smooth_surface.h"
 #include "runtime/picture/shading/volumes.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -80,8 +79,8 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
     set_nested_ray(rays, i, org, dir, tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar,
                    *start.hits, start.hit);
     if (bias > 0) rays.tnear[i] = bias;
-    if (!grid.scene.volumes.empty())
-        rays.medium[i] = nested_medium(grid.scene, *start.hits, start.hit, dir);
+    if (!grid.frame.shaders.volumes.empty())
+        rays.medium[i] = nested_medium(grid.frame, *start.hits, start.hit, dir);
     rays.sample[i] = path;
     rays.share[i] = share;
     rays.slot[i] = slot;
@@ -111,7 +110,7 @@ void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitB
     vec3 dx = turned(triple(from.dDdx, hit)), dy = turned(triple(from.dDdy, hit));
     vec3 dNdx, dNdy;
     if (back && square > 1e-12f && on_surface(grid) &&
-        SmoothSurface(grid.scene, grid.pose).bend_at(from, hit, dNdx, dNdy)) {
+        SmoothSurface(grid.frame.shapes, grid.pose).bend_at(from, hit, dNdx, dNdy)) {
         const vec3 N = axis / std::sqrt(square);
         auto bent = [&](vec3 dN) {
             return (dN * glm::dot(in, N) + N * glm::dot(in, dN)) * (2 * after);
@@ -241,7 +240,7 @@ void LaneRays::enter_hits() {
 }
 
 void LaneRays::enter_bends() {
-    SmoothSurface surface(grid_.scene, grid_.pose);
+    SmoothSurface surface(grid_.frame.shapes, grid_.pose);
     for (int lane = 0; lane < kSixteen; ++lane) {
         vec3 x(0.0f), y(0.0f);
         const bool asks = lanes_.asks(lane) && on_surface(grid_);
@@ -377,11 +376,11 @@ void LaneRays::put(raytrace::RayBatch& rays, const RaySamples& samples, size_t c
     for (uint32_t* column : {rays.layer, rays.turns, rays.spent})
         std::fill_n(column + at, kSixteen, 0u);
     for (uint32_t i = 0; i < uint32_t(kSixteen); ++i) rays.slot[at + i] = slot + i;
-    if (!grid_.scene.volumes.empty())
+    if (!grid_.frame.shaders.volumes.empty())
         for (size_t i = 0; i < count; ++i) {
             const uint32_t lane = samples.lane[i];
             rays.medium[at + i] =
-                nested_medium(grid_.scene, *hits_[lane], hit_[lane], triple(rays.dir, at + i));
+                nested_medium(grid_.frame, *hits_[lane], hit_[lane], triple(rays.dir, at + i));
         }
     rays.count += count;
 }

@@ -11,7 +11,11 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/scene/description/shader_library.h"
 #include "runtime/scene/kernels/light_categories.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/lights.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/resources.h"
+#include "runtime/scene/shaders.h"
 
 namespace kinora {
 
@@ -166,8 +170,8 @@ bool is_black(const Pose& pose, const ShaderInstance& look) {
 
 }  // namespace
 
-LightReach LightBindings::reach(const Scene& scene, const Pose& pose, size_t light) const {
-    const ShaderInstance& look = *scene.shader_instances[scene.lights[light].look];
+LightReach LightBindings::reach(const SceneNodes& scene, const Pose& pose,
+                                const ShaderInstance& look) {
     LightReach reach;
     reach.black = is_black(pose, look);
     if (look.area_light) return reach;  // its light does not come from its node
@@ -189,24 +193,26 @@ float LightNumber::in(const Pose& pose) const {
     return value == kNone ? fixed : float(pose.values[value]);
 }
 
-LightBindings::LightBindings(const Scene& scene) {
-    for (const LightSource& light : scene.lights) {
-        const ShaderInstance& look = *scene.shader_instances[light.look];
+LightBindings::LightBindings(const SceneResources& resources, const SceneLights& sources,
+                             const SceneShaders& shaders) {
+    for (const LightSource& light : sources.lights) {
+        const ShaderInstance& look = *shaders.shader_instances[light.look];
         auto& statements = statements_.emplace_back();
         for (size_t s = 0; s < look.lowered.light_statements.size(); ++s)
-            statements.push_back(statement_of(look, s, scene.description->lights[light.definition],
-                                              scene.options.quality.shadows));
+            statements.push_back(statement_of(look, s,
+                                              resources.description->lights[light.definition],
+                                              resources.options.quality.shadows));
     }
-    for (const auto& look : scene.shader_instances) {
+    for (const auto& look : shaders.shader_instances) {
         auto& row = bindings_.emplace_back();
         if (look->kind == ShaderInstanceKind::Light) continue;
-        for (size_t l = 0; l < scene.lights.size(); ++l) {
-            const LightSource& light = scene.lights[l];
-            row.push_back(binding_of(*look, light, *scene.shader_instances[light.look]));
+        for (size_t l = 0; l < sources.lights.size(); ++l) {
+            const LightSource& light = sources.lights[l];
+            row.push_back(binding_of(*look, light, *shaders.shader_instances[light.look]));
             row.back().light = int32_t(l);
         }
     }
-    asked_.resize(scene.lights.size());
+    asked_.resize(sources.lights.size());
     for (const auto& row : bindings_)
         for (size_t l = 0; l < row.size(); ++l)
             if (row[l].seen) asked_[l] = true;

@@ -11,6 +11,11 @@
 
 namespace kinora {
 
+struct SceneLights;
+struct SceneNodes;
+struct SceneResources;
+struct SceneShaders;
+
 // Output columns of one illuminate or solar statement (-1: the kernel has none).
 struct LightOutputs {
     rsl::LightKind kind = rsl::kLightAmbient;
@@ -38,14 +43,15 @@ struct LightBinding {
 
 class LightBindings {
   public:
-    explicit LightBindings(const Scene& scene);
+    LightBindings(const SceneResources& resources, const SceneLights& lights,
+                  const SceneShaders& shaders);
     // Of light `light` among Scene::lights, in the order of its source.
     std::span<const LightOutputs> statements(size_t light) const { return statements_[light]; }
     // What look `look` among Scene::looks, no light's, reads of it.
     const LightBinding& binding(size_t look, size_t light) const { return bindings_[look][light]; }
-    // Where light `light` can send light in a pose, in current space; of other shaders than the
-    // library's that is everywhere.
-    LightReach reach(const Scene& scene, const Pose& pose, size_t light) const;
+    // Where a light can send light in a pose, in current space; of other shaders than the library's
+    // that is everywhere.
+    static LightReach reach(const SceneNodes& scene, const Pose& pose, const ShaderInstance& look);
     // Whether some loop of some look asks for it.
     bool asked(size_t light) const { return asked_[light]; }
     // Whether some statement sends light from somewhere.

@@ -15,11 +15,14 @@
 #include "runtime/picture/shading/grid_host.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/kernels/columns.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
 namespace {
+
+const ShaderInstance& look_of_light(const ShadingFrame& frame, size_t light) {
+    return *frame.shaders.shader_instances[frame.lights.lights[light].look];
+}
 
 // Columns a light kernel reads, from the points to be lit.
 std::span<float*> light_columns(const ShaderInstance& look, const Pose& pose,
@@ -92,29 +95,33 @@ uint32_t bits(float x) {
 }  // namespace
 
 LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
-    : frame_(frame), kernels_(kernels), bindings_(frame.scene), area_lights_(frame, bindings_) {
-    for (size_t l = 0; l < frame.scene.lights.size(); ++l) {
+    : frame_(frame),
+      kernels_(kernels),
+      bindings_(frame.resources, frame.lights, frame.shaders),
+      area_lights_(frame, bindings_) {
+    for (size_t l = 0; l < frame.lights.lights.size(); ++l) {
         every_.push_back(l);
         for (const LightOutputs& statement : bindings_.statements(l)) {
             record_count_ += samples_of(l, statement);
             draws_samples_ |= statement.spread >= 0;
         }
         draws_samples_ |= area_lights_.find(l) != nullptr;
-        need_rng_ |= frame.scene.shader_instances[frame.scene.lights[l].look]->lowered.uses_rng;
+        need_rng_ |= look_of_light(frame, l).lowered.uses_rng;
     }
 }
 
 size_t LightRecords::samples_of(size_t light, const LightOutputs& statement) const {
     if (const AreaLight* area = area_lights_.find(light)) return area->samples;
-    return statement.spread >= 0 ? light_samples(frame_.scene, light) : 1;
+    return statement.spread >= 0 ? light_samples(frame_, light) : 1;
 }
 
 void LightRecords::begin_frame(bool all) {
     all_ = all;
     area_lights_.begin_frame();
-    reaches_.resize(frame_.scene.lights.size());
+    reaches_.resize(frame_.lights.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l)
-        if (all || bindings_.asked(l)) reaches_[l] = bindings_.reach(frame_.scene, frame_.pose, l);
+        if (all || bindings_.asked(l))
+            reaches_[l] = LightBindings::reach(frame_.nodes, frame_.pose, look_of_light(frame_, l));
     find_present();
 }
 
@@ -136,7 +143,7 @@ void LightRecords::find_present() {
 
 std::vector<size_t> LightRecords::light_of_records() const {
     std::vector<size_t> lights;
-    for (size_t l = 0; l < frame_.scene.lights.size(); ++l) {
+    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
         for (const LightOutputs& statement : bindings_.statements(l))
             lights.insert(lights.end(), samples_of(l, statement), l);
     }
@@ -283,8 +290,7 @@ std::span<PointRays> LightRecords::accounts(const Making& making) {
 void LightRecords::plain_records(Making& making, size_t l) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
-    const LightSource& light = frame_.scene.lights[l];
-    const ShaderInstance& look = *frame_.scene.shader_instances[light.look];
+    const ShaderInstance& look = look_of_light(frame_, l);
     Arena& arena = grid.memory.arena;
     Grid lit(frame_, grid.memory, grid.hits, grid.points.subspan(at.first, at.count), &look);
     lit.depth = grid.depth;
@@ -299,7 +305,7 @@ void LightRecords::plain_records(Making& making, size_t l) {
         lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
         std::fill(lit.record_sets.begin(), lit.record_sets.end(), jit::RecordSet{});
     }
-    lit.columns = light_columns(look, frame_.pose, light, at, arena);
+    lit.columns = light_columns(look, frame_.pose, frame_.lights.lights[l], at, arena);
     if (look.lowered.draws_random) lit.note_random();
     std::span<float*> out = kernels_.run(look.full, lit);
     grid.memory.counters.light_points += at.count;
@@ -352,7 +358,7 @@ void LightRecords::area_records(Making& making, size_t l) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
     const AreaLight& light = *area_lights_.find(l);
-    const ShaderInstance& look = *frame_.scene.shader_instances[frame_.scene.lights[l].look];
+    const ShaderInstance& look = look_of_light(frame_, l);
     Arena& arena = grid.memory.arena;
     std::span<uint32_t> points = arena.allocate_span<uint32_t>(at.count);
     for (uint32_t i = 0; i < at.count; ++i) points[i] = i;
@@ -551,10 +557,9 @@ class SilentHost : public UnlitHost {
 
 // The probes through the light's kernel; a row for each output.
 std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& look, Arena& arena) {
-    const Scene& scene = frame.scene;
     const BoundKernel& bound = look.full;
     const jit::Kernel& kernel = bound.kernel();
-    dmat4 current = current_from_space(scene, frame.pose, "shader", look.space_owner());
+    dmat4 current = current_from_space(frame.nodes, frame.pose, "shader", look.space_owner());
     dvec3 origin(current[3]);
     auto new_row = [&] {
         std::span<float> row = arena.allocate_span<float>(kProbes);
@@ -573,13 +578,13 @@ std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& lo
     for (uint16_t column : bound.columns) {
         float* row = columns[column] = new_row();
         for (size_t k = 0; k < kProbes; ++k)
-            row[k] = value(column, dvec3(current * dvec4(probe(k, scene.size), 1)));
+            row[k] = value(column, dvec3(current * dvec4(probe(k, frame.shapes.size), 1)));
     }
     std::span<float*> out = take_outputs(kernel, kProbes, arena);
     std::span<jit::RecordSet> records = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(records.begin(), records.end(), jit::RecordSet{});
     std::span<uint8_t> faults = arena.allocate_span<uint8_t>(kernel.fault_sites.size());
-    SilentHost host(scene, frame.pose, look);
+    SilentHost host(frame.scene, frame.pose, look);
     bound.run({.count = kProbes,
                .frame = frame.instances[look.index].full,
                .columns = columns,
@@ -594,17 +599,18 @@ std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& lo
 }  // namespace
 
 void LightRecords::report_aims(Diagnostics& diagnostics) const {
-    const Scene& scene = frame_.scene;
-    if (scene.description->file_picture) return;  // its lights are aimed by parameters of their own
-    for (size_t l = 0; l < scene.lights.size(); ++l) {
-        const LightSource& light = scene.lights[l];
-        const ShaderInstance& look = *scene.shader_instances[light.look];
+    // The interface's lights are aimed by parameters of their own.
+    if (frame_.resources.description->file_picture) return;
+    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
+        const LightSource& light = frame_.lights.lights[l];
+        const ShaderInstance& look = look_of_light(frame_, l);
         // A shader that does not read its space has another aim, as the default lights have.
         bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
         if (look.area_light || !aims || !bindings_.directed(l)) continue;
         Arena arena;
         std::span<float*> out = run_probes(frame_, look, arena);
-        dvec3 forward(current_from_space(scene, frame_.pose, "shader", look.space_owner())[2]);
+        dvec3 forward(
+            current_from_space(frame_.nodes, frame_.pose, "shader", look.space_owner())[2]);
         bool before = false, behind = false;
         for (const LightOutputs& statement : bindings_.statements(l)) {
             if (statement.kind == rsl::kLightAmbient || statement.L[0] < 0) continue;
@@ -618,7 +624,7 @@ void LightRecords::report_aims(Diagnostics& diagnostics) const {
                 (glm::dot(to_light, forward) > 0 ? behind : before) = true;
             }
         }
-        const LightDefinition& definition = scene.description->lights[light.definition];
+        const LightDefinition& definition = frame_.resources.description->lights[light.definition];
         if (behind && !before)
             diagnostics.report(Code::LIGHT_AIMS_BACK, definition.where,
                                definition.id.empty() ? definition.name : definition.id);

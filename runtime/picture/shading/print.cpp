@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "runtime/scene/description/findings.h"
-#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/printed_lines.h"
 
 namespace kinora {
@@ -60,7 +59,7 @@ void Prints::drop() {
     for (OfThread& thread : threads_) thread = {};
 }
 
-void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
+void Prints::flush(const SceneShaders& scene, const PrintTo& show, Diagnostics& diagnostics) {
     std::map<std::string_view, OfLook> shaders;  // one may be that of many looks
     for (OfThread& thread : threads_) {
         for (size_t look = 0; look < thread.looks.size(); ++look) {
@@ -82,7 +81,7 @@ void Prints::flush(const Scene& scene, Diagnostics& diagnostics) {
     }
     std::sort(all.begin(), all.end());
     for (const Print& print : all)
-        if (scene.options.print) scene.options.print(print.text);
+        if (show) show(print.text);
 }
 
 }  // namespace kinora

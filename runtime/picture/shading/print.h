@@ -18,7 +18,7 @@ class Prints {
     // A call at a grid's points: kept with their pixels.
     void add(const Grid& grid, const jit::ServiceCall& call);
     // Shows and forgets all; of each shader the first in the order of the picture.
-    void flush(const Scene& scene, Diagnostics& diagnostics);
+    void flush(const SceneShaders& scene, const PrintTo& show, Diagnostics& diagnostics);
     // Forgets all.
     void drop();
 

@@ -11,7 +11,6 @@
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/kernel_runner.h"
 #include "runtime/picture/shading/transmission.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -348,7 +347,7 @@ void RayQueue::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
                 at.open = vec3(0.0f);
                 continue;
             }
-            uint32_t medium = medium_behind(frame_.scene, hits, h);
+            uint32_t medium = medium_behind(frame_, hits, h);
             raytrace::pass_through(accel, rays, kept, hits, h);
             rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
             rays.turns[kept] += passage.turns;

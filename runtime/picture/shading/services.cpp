@@ -9,7 +9,6 @@
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
-#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/queries.h"
 #include "runtime/scene/spaces.h"
 
@@ -25,16 +24,17 @@ void answer_handle(const jit::ServiceCall& call, int32_t handle) {
 }  // namespace
 
 PictureHost::PictureHost(Grid& grid, const GridServices& services)
-    : SceneHost(grid.scene, grid.pose, *grid.look), grid_(grid), services_(services) {}
+    : SceneHost(grid.frame.scene, grid.pose, *grid.look), grid_(grid), services_(services) {}
 
 // "shader" and "object" of a surface are those of the shape that wears it.
 dmat4 PictureHost::current_from_space(std::string_view name, size_t point) const {
     SpaceOwner owner = look_.space_owner();
     if (look_.kind == ShaderInstanceKind::Surface) {
         uint32_t hit = grid_.points[std::min(point, grid_.count() - 1)];
-        owner.node = scene_.shapes[scene_.surfaces[grid_.hits.instance[hit]].shape].node;
+        const SceneShapes& scene = grid_.frame.shapes;
+        owner.node = scene.shapes[scene.surfaces[grid_.hits.instance[hit]].shape].node;
     }
-    return kinora::current_from_space(scene_, pose_, name, owner);
+    return kinora::current_from_space(grid_.frame.nodes, pose_, name, owner);
 }
 void PictureHost::trace(const jit::ServiceCall& call) {
     StageScope stage(Stage::Nested);

@@ -34,9 +34,19 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     dark += o.dark;
 }
 
+ShadingFrame::ShadingFrame(const Scene& s, const Pose& p)
+    : scene(s),
+      resources(s),
+      nodes(s),
+      shapes(s),
+      lights(s),
+      shaders(s),
+      quality(s.options.quality),
+      pose(p) {}
+
 // Each object is made of those before it. Kernels alone lead back up: they call services.
 struct Shading::Objects {
-    Objects(const Scene& scene, const Pose& pose) : frame{scene, scene.options.quality, pose} {}
+    Objects(const Scene& scene, const Pose& pose) : frame(scene, pose) {}
 
     ShadingFrame frame;
     ThreadMemories threads;
@@ -50,7 +60,7 @@ struct Shading::Objects {
     GatherRays gathers{frame, hits, queue};
     Imager imager{frame, threads, kernels};
     Prints prints;
-    Bakes bakes{frame.scene, frame.pose};
+    Bakes bakes{frame.resources, frame.pose};
     GridServices services{lights, rays, gathers, prints, bakes};
     bool aims_reported = false;
     // What the scene's shaders need of all frames: these do not look at each of them for it.
@@ -102,9 +112,10 @@ namespace {
 
 // Brings the looks that run, or all, to the pose's time.
 void update_looks(ShadingFrame& frame, const std::vector<bool>& run, bool all) {
-    FrameContext context{.scene = frame.scene, .pose = frame.pose, .stop = frame.stop};
+    FrameContext context{
+        .scene = frame.scene, .nodes = frame.nodes, .pose = frame.pose, .stop = frame.stop};
     for (size_t l = 0; l < run.size(); ++l)
-        if (all || run[l]) frame.scene.shader_instances[l]->update(context, frame.instances[l]);
+        if (all || run[l]) frame.shaders.shader_instances[l]->update(context, frame.instances[l]);
 }
 
 void set_view(ShadingFrame& frame) {
@@ -130,7 +141,7 @@ bool reads_footprints(const ShaderInstance& look) {
 
 }  // namespace
 
-bool reads_footprints(const Scene& scene) {
+bool reads_footprints(const SceneShaders& scene) {
     return std::ranges::any_of(scene.shader_instances,
                                [](const auto& look) { return reads_footprints(*look); });
 }
@@ -169,7 +180,8 @@ bool Shading::stopped() const {
 }
 
 ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
-    objects_->prints.flush(objects_->frame.scene, diagnostics);
+    objects_->prints.flush(objects_->frame.shaders, objects_->frame.resources.options.print,
+                           diagnostics);
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
     if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
@@ -202,7 +214,7 @@ void Shading::shade_misses(const raytrace::HitBatch& ends, int thread,
 }
 
 uint32_t Shading::medium_behind(const raytrace::HitBatch& hits, size_t k) const {
-    return kinora::medium_behind(objects_->frame.scene, hits, k);
+    return kinora::medium_behind(objects_->frame, hits, k);
 }
 
 size_t Shading::run_imager(raytrace::Film& film, raytrace::NanPolicy nan) {

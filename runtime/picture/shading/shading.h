@@ -12,7 +12,7 @@
 namespace kinora {
 
 // Whether some shader of the scene reads the size of what a pixel shows; else rays carry none.
-bool reads_footprints(const Scene& scene);
+bool reads_footprints(const SceneShaders& scene);
 
 // Wavefront shading (docs/decisions.md#lanes-and-wavefronts). One per pose; its memory is kept
 // from frame to frame.

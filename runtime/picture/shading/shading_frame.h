@@ -9,13 +9,17 @@
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
 #include "runtime/picture/shading/insight.h"
+#include "runtime/scene/lights.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/resources.h"
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/picture_points.h"
 #include "runtime/scene/shaders/shader_instance.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 
-struct Pose;
-struct Quality;
 struct Scene;
 
 // How often a point may ask for the lights at points of its own, some 8 KB each time: a march may,
@@ -38,9 +42,14 @@ struct ShadingCounters {
 
 // What is the same for all that is shaded in a frame. Set by Shading before the first hit.
 struct ShadingFrame : EyeSpace {
-    ShadingFrame(const Scene& s, const Quality& q, const Pose& p) : scene(s), quality(q), pose(p) {}
+    ShadingFrame(const Scene& s, const Pose& p);
 
-    const Scene& scene;
+    const Scene& scene;  // for what shaders look up; all else is read of its parts
+    const SceneResources& resources;
+    const SceneNodes& nodes;
+    const SceneShapes& shapes;
+    const SceneLights& lights;
+    const SceneShaders& shaders;
     const Quality& quality;  // the scene's
     const Pose& pose;
     std::vector<InstanceFrame> instances = {};  // of Scene::shader_instances

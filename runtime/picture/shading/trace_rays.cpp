@@ -13,7 +13,6 @@
 #include "runtime/picture/shading/rays/map_light.h"
 #include "runtime/picture/shading/rays/smooth_surface.h"
 #include "runtime/picture/shading/volumes.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -127,7 +126,7 @@ class RaysBetween {
     enum { From = 2, To = 5, Samples = 8, Spread, Bias };
 
     RaysBetween(Grid& grid, const Lanes& lanes)
-        : grid_(grid), lanes_(lanes), smooth_(grid.scene, grid.pose) {}
+        : grid_(grid), lanes_(lanes), smooth_(grid.frame.shapes, grid.pose) {}
 
     // Nothing can lie between two points that are the same.
     RayWish wish(int lane) const {
@@ -242,8 +241,8 @@ void RaysBetween::add_ray_of(raytrace::RayBatch& rays, const Way& w, uint32_t sl
     size_t i = rays.count - 1;
     set_triple(rays.org, i, org);
     set_triple(rays.first_org, i, org);
-    if (!grid_.scene.volumes.empty())
-        rays.medium[i] = nested_medium(grid_.scene, *start.hits, start.hit,
+    if (!grid_.frame.shaders.volumes.empty())
+        rays.medium[i] = nested_medium(grid_.frame, *start.hits, start.hit,
                                        w.up_from == vec3(0.0f) ? way : w.up_from);
 }
 
@@ -378,7 +377,7 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     const RayPlan plan = queue_.plan(RayKind::Occlusion, grid, lanes, [&](int lane) {
         return RayWish{.samples = cone.count(lane), .aims = cone.aims(lane)};
     });
-    OcclusionSum sum(*frame_.scene.textures, lanes, plan);
+    OcclusionSum sum(*frame_.resources.textures, lanes, plan);
     RayCall rays_of{RayKind::Occlusion, grid, lanes, plan};
     for (int lane = 0; lane < kLanes; ++lane)
         rays_of.distances |= plan.count[lane] > 0 && sum.by_distance(lane);
@@ -460,7 +459,7 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
                        .shoots = reaches(lane),
                        .unshot = lanes.integer(IndirectSum::Map, lane) != 0};
     });
-    IndirectSum sum(*frame_.scene.textures, lanes, plan);
+    IndirectSum sum(*frame_.resources.textures, lanes, plan);
     queue_.send(
         {RayKind::Indirect, grid, lanes, plan, IndirectSum::Rows},
         [&](raytrace::RayBatch& rays, const SampleSpan& planned, uint32_t slot) {

@@ -15,7 +15,6 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/columns/kernels.h"
 #include "runtime/picture/lights/kernels.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -39,7 +38,6 @@ static void aim_at(raytrace::RayBatch& rays, size_t i, vec3 end) {
 // round after the last only asks whether anything is left: that lets nothing through.
 void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& tag,
                                     ThreadMemory& memory, vec3* through) {
-    const Scene& scene = frame_.scene;
     for (size_t r = 0; r < rays.count; ++r) through[rays.slot[r]] = vec3(1.0f);
     Arena::Mark mark = memory.arena.mark();
     for (int round = 0; rays.count > 0; ++round) {
@@ -48,7 +46,7 @@ void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& tag,
         const raytrace::HitBatch& hits =
             raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskNotOpaque, 1, nested->hits,
                             memory.counters.trace);
-        if (!scene.volumes.empty()) pass_ends(rays, hits, tag, memory, through);
+        if (!frame_.shaders.volumes.empty()) pass_ends(rays, hits, tag, memory, through);
         if (hits.count == 0) break;
         if (round == frame_.max_layers) {
             for (size_t h = 0; h < hits.count; ++h) through[rays.slot[hits.ray[h]]] = vec3(0.0f);
@@ -58,7 +56,7 @@ void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& tag,
         Arena::Mark round_mark = memory.arena.mark();
         std::span<vec3> Oi = memory.arena.allocate_span<vec3>(hits.count);
         opacity(hits, tag, memory, Oi.data());
-        if (!scene.volumes.empty()) volumes_.pass(hits, tag, memory, Oi.data());
+        if (!frame_.shaders.volumes.empty()) volumes_.pass(hits, tag, memory, Oi.data());
         size_t kept = 0;
         for (size_t h = 0; h < hits.count; ++h) {
             uint32_t r = hits.ray[h];
@@ -66,7 +64,7 @@ void Transmission::pass_transparent(raytrace::RayBatch& rays, const RayTag& tag,
             light *= vec3(1.0f) - Oi[h];
             if (light == vec3(0.0f)) continue;
             vec3 end = triple(rays.org, r) + triple(rays.dir, r) * rays.tfar[r];
-            uint32_t medium = medium_behind(scene, hits, h);
+            uint32_t medium = medium_behind(frame_, hits, h);
             raytrace::pass_through(frame_.pose.accel, rays, kept, hits, h);
             if (std::isfinite(rays.tfar[kept])) aim_at(rays, kept, end);
             rays.medium[kept++] = medium;
@@ -102,7 +100,7 @@ void Transmission::pass(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemor
     std::iota(all, all + rays.count, 0u);
     std::span<const uint32_t> which(all, rays.count);
     // Most rays meet nothing at all. Where objects have volumes, such a ray may run through one.
-    if (frame_.any_transparent && frame_.scene.volumes.empty()) {
+    if (frame_.any_transparent && frame_.shaders.volumes.empty()) {
         raytrace::occluded(frame_.pose.accel, rays, raytrace::kMaskAll, blocked,
                            memory.counters.trace);
         size_t met = 0;
@@ -142,9 +140,8 @@ void Transmission::pass_blocked(raytrace::RayBatch& rays, const RayTag& tag, Thr
 
 void Transmission::opacity(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
                            vec3* Oi) {
-    const Scene& scene = frame_.scene;
     Arena::Mark mark = memory.arena.mark();
-    for (const LookRun& run : runs_by_look(scene, hits, memory.arena)) {
+    for (const LookRun& run : runs_by_look(frame_, hits, memory.arena)) {
         if (!run.look->opacity) {
             for (uint32_t h : run.hits) Oi[h] = vec3(1.0f);
             continue;
@@ -199,10 +196,10 @@ ShadowQueue::ShadowQueue(const ShadingFrame& frame, Transmission& transmission,
       memory_(memory),
       tag_(sent_tag(from, row_of(RayKind::Lamp), 0)),
       dims_(frame.any_transparent),
-      straight_(frame.scene.volumes.empty()),
+      straight_(frame.shaders.volumes.empty()),
       mask_(dims_ && straight_ ? raytrace::kMaskAll : raytrace::kMaskOpaque),
       accel_from_camera_(glm::transpose(frame.camera_from_accel)),
-      smooth_(frame.scene, frame.pose),
+      smooth_(frame.shapes, frame.pose),
       rest_(memory) {
     rest_->rays.count = 0;
 }

@@ -17,7 +17,6 @@
 
 #include "raytrace/hits.h"
 #include "runtime/scene/medium.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -32,37 +31,40 @@ bool from_outside(const raytrace::HitBatch& hits, size_t k) {
 }
 
 // The look of the volume that hit k was seen through, kNone if none.
-uint32_t volume_before(const Scene& scene, const raytrace::HitBatch& hits, size_t k) {
+uint32_t volume_before(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k) {
     uint32_t within = innermost(medium_before(hits, k));
-    uint32_t around = within ? scene.volumes[within - 1] : scene.atmosphere;
+    uint32_t around = within ? frame.shaders.volumes[within - 1] : frame.shaders.atmosphere;
     uint32_t row = hits.instance[k];
     if (row == kNone) {  // nothing was met: an object that was never left has a hole
-        bool inside = around != kNone && within && !scene.shader_instances[around]->exterior;
-        return inside ? scene.atmosphere : around;
+        bool inside =
+            around != kNone && within && !frame.shaders.shader_instances[around]->exterior;
+        return inside ? frame.shaders.atmosphere : around;
     }
-    const Surface& surface = scene.surfaces[row];
+    const Surface& surface = frame.shapes.surfaces[row];
     uint32_t own = from_outside(hits, k) ? surface.exterior : surface.interior;
     return own != kNone ? own : around;
 }
 
 }  // namespace
 
-uint32_t medium_behind(const Scene& scene, const raytrace::HitBatch& hits, size_t k) {
+uint32_t medium_behind(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k) {
     uint32_t medium = medium_before(hits, k);
-    if (scene.volumes.empty()) return medium;
-    const Surface& surface = scene.surfaces[hits.instance[k]];
+    if (frame.shaders.volumes.empty()) return medium;
+    const Surface& surface = frame.shapes.surfaces[hits.instance[k]];
     uint32_t left = surface.exterior, entered = surface.interior;
     if (!from_outside(hits, k)) std::swap(left, entered);
-    if (left != kNone) medium = leave_volume(medium, scene.shader_instances[left]->volume);
-    if (entered != kNone) medium = enter_volume(medium, scene.shader_instances[entered]->volume);
+    if (left != kNone) medium = leave_volume(medium, frame.shaders.shader_instances[left]->volume);
+    if (entered != kNone)
+        medium = enter_volume(medium, frame.shaders.shader_instances[entered]->volume);
     return medium;
 }
 
-uint32_t nested_medium(const Scene& scene, const raytrace::HitBatch& hits, size_t k, vec3 dir) {
+uint32_t nested_medium(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k,
+                       vec3 dir) {
     if (hits.instance[k] == kNone) return medium_before(hits, k);
     vec3 Ng = triple(hits.Ng, k);
     bool through = glm::dot(triple(hits.dir, k), Ng) * glm::dot(dir, Ng) > 0;
-    return through ? medium_behind(scene, hits, k) : medium_before(hits, k);
+    return through ? medium_behind(frame, hits, k) : medium_before(hits, k);
 }
 
 // Hits in the order of the volumes before them, and where those of each begin.
@@ -72,20 +74,20 @@ struct Volumes::Order {
 };
 
 Volumes::Order Volumes::sort(const raytrace::HitBatch& hits, Arena& arena, bool fills_only) const {
-    const Scene& scene = frame_.scene;
-    size_t looks = scene.shader_instances.size();
+    const SceneShaders& shaders = frame_.shaders;
+    size_t looks = shaders.shader_instances.size();
     std::span<uint32_t> volume = arena.allocate_span<uint32_t>(hits.count);
     Order order;
     order.begin = arena.allocate_span<uint32_t>(looks + 1);
     std::fill(order.begin.begin(), order.begin.end(), 0u);
     for (size_t k = 0; k < hits.count; ++k) {
-        volume[k] = volume_before(scene, hits, k);
+        volume[k] = volume_before(frame_, hits, k);
         // A shadow ray that meets nothing has reached its light, perhaps within an object.
         uint32_t within = innermost(medium_before(hits, k));
         if (fills_only && hits.instance[k] == kNone && within &&
             std::isfinite(hits.rays->tfar[hits.ray[k]]))
-            volume[k] = scene.volumes[within - 1];
-        if (fills_only && volume[k] != kNone && !scene.shader_instances[volume[k]]->opacity)
+            volume[k] = shaders.volumes[within - 1];
+        if (fills_only && volume[k] != kNone && !shaders.shader_instances[volume[k]]->opacity)
             volume[k] = kNone;
         if (volume[k] != kNone) ++order.begin[volume[k] + 1];
     }
@@ -103,7 +105,7 @@ template <class F>
 void Volumes::for_each_grid(const Order& order, F&& f) const {
     for (size_t l = 0; l + 1 < order.begin.size(); ++l)
         for (size_t at = order.begin[l]; at < order.begin[l + 1]; at += kGridPoints)
-            f(*frame_.scene.shader_instances[l],
+            f(*frame_.shaders.shader_instances[l],
               order.points.subspan(at, std::min(kGridPoints, order.begin[l + 1] - at)));
 }
 
@@ -139,7 +141,7 @@ void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, Lig
 
 void Volumes::apply(const raytrace::HitBatch& hits, const RayTag& ray, LightShadows& shadows,
                     ThreadMemory& memory, raytrace::ShadeResult& result) {
-    if (frame_.scene.atmosphere == kNone && frame_.scene.volumes.empty()) return;
+    if (frame_.shaders.atmosphere == kNone && frame_.shaders.volumes.empty()) return;
     Arena::Mark mark = memory.arena.mark();
     for_each_grid(sort(hits, memory.arena, false),
                   [&](const ShaderInstance& look, std::span<const uint32_t> points) {

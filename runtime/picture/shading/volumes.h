@@ -9,9 +9,10 @@
 namespace kinora {
 
 // RayBatch::medium of a ray that goes on behind hit k.
-uint32_t medium_behind(const Scene& scene, const raytrace::HitBatch& hits, size_t k);
+uint32_t medium_behind(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k);
 // Of a ray that a shader sends from hit k: through the surface, or back into where it came from.
-uint32_t nested_medium(const Scene& scene, const raytrace::HitBatch& hits, size_t k, vec3 dir);
+uint32_t nested_medium(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k,
+                       vec3 dir);
 
 class Volumes {
   public:

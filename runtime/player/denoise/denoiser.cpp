@@ -4,6 +4,7 @@
 #include "runtime/player/denoise/diffuse_maps.h"
 #include "runtime/player/denoise/filter.h"
 #include "runtime/player/denoise/history.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -27,7 +28,7 @@ bool Denoiser::filter(const Scene& scene, const Pose& pose, const FirstHits& hit
         m.history.forget();
         return false;
     }
-    fill_albedo(scene, hits, m.planes);
+    fill_albedo(scene, scene, scene.textures.get(), hits, m.planes);
     m.history.blend(pose, hits, m.planes);
     m.filter.start(m.planes);
     // The next picture finds what one pass has left: less of a single bright sample stays for long.

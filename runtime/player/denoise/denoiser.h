@@ -8,9 +8,11 @@
 
 #include "raytrace/film.h"
 #include "runtime/picture/shading/first_hits/first_hits.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Pose;
+struct Scene;
 
 class Denoiser {
   public:

@@ -10,7 +10,9 @@
 #include "runtime/base/parallel.h"
 #include "runtime/scene/images/texture_sample.h"
 #include "runtime/scene/images/texture_store.h"
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/shader_instance.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 
@@ -35,13 +37,13 @@ const VertexAttribute* coordinates(const Surface& surface, const ShaderInstance&
     return surface.st;
 }
 
-DiffuseMap find_map(const Scene& scene, const Surface& surface) {
-    const ShaderInstance& look = *scene.shader_instances[surface.look];
-    if (look.layers.empty() || !scene.textures) return {};
+DiffuseMap find_map(const SceneShaders& shaders, TextureStore* textures, const Surface& surface) {
+    const ShaderInstance& look = *shaders.shader_instances[surface.look];
+    if (look.layers.empty() || !textures) return {};
     for (const std::string slot : kSlots)
         for (const ParamSource& param : look.layers.back().params)
             if (param.name == slot + "_map" && !param.strings.empty() && !param.strings[0].empty())
-                return {scene.textures->find(rsl::intern(param.strings[0])),
+                return {textures->find(rsl::intern(param.strings[0])),
                         coordinates(surface, look, slot)};
     return {};
 }
@@ -89,9 +91,11 @@ void sample(const DiffuseMap& map, const Coordinates& at, float (&texels)[4][kLa
 
 }  // namespace
 
-void fill_albedo(const Scene& scene, const FirstHits& hits, Planes& planes) {
+void fill_albedo(const SceneShapes& scene, const SceneShaders& shaders, TextureStore* textures,
+                 const FirstHits& hits, Planes& planes) {
     std::vector<DiffuseMap> maps;
-    for (const Surface& surface : scene.surfaces) maps.push_back(find_map(scene, surface));
+    for (const Surface& surface : scene.surfaces)
+        maps.push_back(find_map(shaders, textures, surface));
     parallel_for(0, size_t(planes.height), 8, [&](size_t begin, size_t end) {
         Coordinates coordinates;
         float texels[4][kLanes];

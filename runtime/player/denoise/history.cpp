@@ -11,6 +11,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/player/denoise/history_kernels.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 

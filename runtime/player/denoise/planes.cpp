@@ -7,6 +7,8 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/player/denoise/kernels.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/shapes.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {
@@ -20,7 +22,7 @@ size_t whole_runs(int pixels) {
 // Normals of a row of Scene::surfaces between the corners of its triangles.
 class SmoothNormals {
   public:
-    SmoothNormals(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
+    SmoothNormals(const SceneShapes& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
 
     // Ng where the mesh has no normals.
     vec3 at(uint32_t row, uint32_t primitive, float u, float v, vec3 Ng) {
@@ -49,7 +51,7 @@ class SmoothNormals {
                     : mat3(1.0f);
     }
 
-    const Scene& scene_;
+    const SceneShapes& scene_;
     const Pose& pose_;
     uint32_t row_ = kNone;
     const MeshGroup* group_ = nullptr;
@@ -106,7 +108,7 @@ void Planes::resize(int w, int h) {
     surface.assign(size, kOutside);
 }
 
-bool fill_planes(const Scene& scene, const Pose& pose, const FirstHits& hits,
+bool fill_planes(const SceneShapes& scene, const Pose& pose, const FirstHits& hits,
                  const raytrace::Film& film, Planes& planes) {
     if (!hits.any_noise()) return false;
     planes.resize(film.width, film.height);

@@ -8,9 +8,12 @@
 #include "runtime/base/parallel.h"
 #include "runtime/picture/shading/first_hits/first_hits.h"
 #include "runtime/player/denoise/kernels.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
+
+struct Pose;
+struct SceneShapes;
 
 inline constexpr size_t kRowsOfTask = 8;  // of a picture, that one thread takes at a time
 
@@ -49,7 +52,7 @@ void each_stretch(const Planes& planes, See&& see) {
 
 // The film's colors, and what the first hits are of the scene as it stands. Pixels whose shading
 // draws nothing at random have no variance, others 1. False: there are none of these.
-bool fill_planes(const Scene& scene, const Pose& pose, const FirstHits& hits,
+bool fill_planes(const SceneShapes& scene, const Pose& pose, const FirstHits& hits,
                  const raytrace::Film& film, Planes& planes);
 
 // The colors of pixels with a variance, back to the film.

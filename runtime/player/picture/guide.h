@@ -7,7 +7,7 @@
 #include "runtime/base/parallel.h"
 #include "runtime/picture/shading/first_hits/first_hits.h"
 #include "runtime/player/picture/picture.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 

@@ -15,7 +15,6 @@
 #include "runtime/picture/shading/kernel_runner.h"
 #include "runtime/player/pixel/point_inputs.h"
 #include "runtime/scene/build/instances/compile_instance.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -85,11 +84,11 @@ class Explanation {
     Explanation(RecordedPoint& point, const SourceFiles& files)
         : point_(point),
           files_(files),
-          scene_(point.host.grid().scene),
+          frame_(point.host.grid().frame),
           look_(*point.host.grid().look),
-          layers_(bound_layers(look_, *scene_.description)),
+          layers_(bound_layers(look_, *frame_.resources.description)),
           light_names_(record_names(point.host)),
-          spaces_(space_names(scene_)),
+          spaces_(space_names(*frame_.resources.description)),
           inputs_(point_inputs(point.host, layers_)) {
         const Grid& grid = point.host.grid();
         if (look_.lowered.uses_lights)
@@ -105,8 +104,9 @@ class Explanation {
 
     PointStory tell() {
         uint32_t row = point_.host.grid().hits.instance[point_.host.grid().points[0]];
-        uint32_t material = scene_.surfaces[row].material;
-        if (material != kNone) story_.material = scene_.description->materials[material].id;
+        uint32_t material = frame_.shapes.surfaces[row].material;
+        if (material != kNone)
+            story_.material = frame_.resources.description->materials[material].id;
         story_.shader = look_.shader().name;
         story_.target = point_.launch.kernel.target;
         story_.code = machine_runs(point_.launch.kernel, files_, story_.no_code);
@@ -172,7 +172,7 @@ class Explanation {
         if (!unanswered.empty())
             return fail(Agreement::Unexplained, fmt::format("the kernel made no such call of: {}",
                                                             fmt::join(unanswered, ", ")));
-        bool fast = scene_.options.quality.math == jit::math::Tier::Fast;
+        bool fast = frame_.quality.math == jit::math::Tier::Fast;
         std::array<double, 3> moved{};
         bool decided = exact.decisions == single.decisions;
         if (!within(exact, single, moved, fast)) decided = shake(exact, single, moved) && decided;
@@ -225,7 +225,7 @@ class Explanation {
 
     RecordedPoint& point_;
     const SourceFiles& files_;
-    const Scene& scene_;
+    const ShadingFrame& frame_;
     const ShaderInstance& look_;
     std::vector<rsl::Layer> layers_;
     std::vector<std::string> light_names_, spaces_;

@@ -4,6 +4,7 @@
 #include "runtime/picture/frame/frame.h"
 #include "runtime/player/pixel/explain_point.h"
 #include "runtime/player/pixel/ray_recorder.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -7,7 +7,6 @@
 #include "rsl/model/kernel_keys.h"
 #include "runtime/picture/shading/grid.h"
 #include "runtime/picture/shading/light_records.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -72,7 +71,7 @@ void add_frame(const Pose& pose, Values& values) {
 
 void add_spaces(const GridHost& host, Values& values) {
     std::vector<std::string> names = {"world", "object", "shader", "screen", "NDC", "raster"};
-    std::vector<std::string> own = space_names(host.grid().scene);
+    std::vector<std::string> own = space_names(*host.grid().frame.resources.description);
     if (own.size() > kMostSpaces) own = host.grid().look->spaces;
     names.insert(names.end(), own.begin(), own.end());
     for (const std::string& name : names) {
@@ -112,7 +111,7 @@ double frame_number(const Grid& grid, const ShaderInstance& look, const KernelKe
         case FrameInput::Source::Value:
             return double(float(grid.pose.values[input.index]));
         case FrameInput::Source::Spatial: {
-            dmat4 m = current_from_space(grid.scene, grid.pose, "shader", look.space_owner());
+            dmat4 m = current_from_space(grid.frame.nodes, grid.pose, "shader", look.space_owner());
             return double(float(parameter_in_current(
                 input.type, m, &grid.pose.values[input.index])[input.component]));
         }
@@ -140,9 +139,9 @@ void add_parameters(const Grid& grid, const ShaderInstance& look,
 
 }  // namespace
 
-std::vector<std::string> space_names(const Scene& scene) {
+std::vector<std::string> space_names(const SceneDescription& description) {
     std::vector<std::string> names;
-    for (const NodeDefinition& node : scene.description->nodes)
+    for (const NodeDefinition& node : description.nodes)
         if (!node.id.empty()) names.push_back(node.id);
     return names;
 }
@@ -160,11 +159,11 @@ rsl::ReferenceInputs point_inputs(const GridHost& host, const std::vector<rsl::L
 }
 
 std::vector<std::string> record_names(const GridHost& host) {
-    const Scene& scene = host.grid().scene;
+    const ShadingFrame& frame = host.grid().frame;
     std::vector<std::string> names;
     for (size_t light : host.services().lights.light_of_records()) {
         const LightDefinition& definition =
-            scene.description->lights[scene.lights[light].definition];
+            frame.resources.description->lights[frame.lights.lights[light].definition];
         names.push_back(definition.name.empty() ? definition.id : definition.name);
     }
     return names;

@@ -9,6 +9,8 @@
 
 namespace kinora {
 
+struct SceneDescription;
+
 // All globals, parameters and spaces at the only point of the host's grid, whether its kernel reads
 // them or not: numbers as kernels have them.
 rsl::ReferenceInputs point_inputs(const GridHost& host, const std::vector<rsl::Layer>& layers);
@@ -20,6 +22,6 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
 std::vector<std::string> record_names(const GridHost& host);
 
 // Coordinate systems that the scene adds to the standard ones.
-std::vector<std::string> space_names(const Scene& scene);
+std::vector<std::string> space_names(const SceneDescription& description);
 
 }  // namespace kinora

@@ -7,7 +7,8 @@
 #include <mutex>
 
 #include "raytrace/packet_recorder.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/extent.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 
@@ -67,7 +68,7 @@ void RayRecorder::record(const raytrace::RayPacket16& rays, bool any) {
     if (packets_.size() <= kMostPackets) packets_.emplace_back(rays, any);
 }
 
-void RayRecorder::tell(const Scene& scene, const Pose& pose, PixelStory& story) {
+void RayRecorder::tell(const SceneExtent& scene, const Pose& pose, PixelStory& story) {
     stop();
     story.rays_cut = packets_.size() > kMostPackets;
     for (const auto& [rays, any] : packets_) {

@@ -10,6 +10,9 @@
 
 namespace kinora {
 
+struct Pose;
+struct SceneExtent;
+
 // From its making to its end the packets of its thread are recorded. One at a time a thread.
 class RayRecorder {
   public:
@@ -19,7 +22,7 @@ class RayRecorder {
 
     // Ends recording and traces the rays again, to where they end. Those that meet nothing end at
     // the scene's size. World space.
-    void tell(const Scene& scene, const Pose& pose, PixelStory& story);
+    void tell(const SceneExtent& scene, const Pose& pose, PixelStory& story);
 
     // `any`: any hit will do.
     void record(const raytrace::RayPacket16& rays, bool any);

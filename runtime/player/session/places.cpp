@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 
+#include "runtime/scene/shapes.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
@@ -12,7 +13,7 @@ std::string number_name(uint32_t node) {
     return "#" + std::to_string(node + 1);
 }
 
-std::string node_path(const Scene& scene, uint32_t node) {
+std::string node_path(const SceneNodes& scene, uint32_t node) {
     std::string path;
     for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
         if (scene.nodes[n].definition == kNone) continue;
@@ -24,7 +25,7 @@ std::string node_path(const Scene& scene, uint32_t node) {
     return path;
 }
 
-uint32_t find_node(const Scene& scene, const std::string& wanted) {
+uint32_t find_node(const SceneNodes& scene, const std::string& wanted) {
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         if (scene.nodes[n].definition == kNone) continue;
         const NodeDefinition& node = scene.description->nodes[scene.nodes[n].definition];
@@ -33,19 +34,20 @@ uint32_t find_node(const Scene& scene, const std::string& wanted) {
     return kNone;
 }
 
-std::pair<dvec3, dvec3> box_of(const Scene& scene, const Pose& pose, uint32_t node) {
+std::pair<dvec3, dvec3> box_of(const SceneNodes& scene, const SceneShapes& shapes, const Pose& pose,
+                               uint32_t node) {
     dvec3 low(1e300), high(-1e300);
-    for (size_t s = 0; s < scene.shapes.size(); ++s) {
-        const Shape& shape = scene.shapes[s];
+    for (size_t s = 0; s < shapes.shapes.size(); ++s) {
+        const Shape& shape = shapes.shapes[s];
         const ShapePose& stands = pose.shapes[s];
         uint32_t n = shape.node;
         while (n != node && n != kNone) n = scene.nodes[n].parent;
         if (n != node) continue;
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-        dvec3 anchor = scene.meshes[shape.mesh].anchor;
+        dvec3 anchor = shapes.meshes[shape.mesh].anchor;
         for (const vec4& position : stands.shown_positions) {
             dvec3 p = dvec3(vec3(position));
-            p = instanced ? dvec3(stands.world * dvec4(p + anchor, 1.0)) : p + scene.origin;
+            p = instanced ? dvec3(stands.world * dvec4(p + anchor, 1.0)) : p + shapes.origin;
             low = glm::min(low, p);
             high = glm::max(high, p);
         }
@@ -53,7 +55,7 @@ std::pair<dvec3, dvec3> box_of(const Scene& scene, const Pose& pose, uint32_t no
     return {low, high};
 }
 
-std::optional<dvec3> place_at(const Scene& scene, Pose& pose, const std::string& name,
+std::optional<dvec3> place_at(const SceneNodes& scene, Pose& pose, const std::string& name,
                               double seconds) {
     uint32_t node = find_node(scene, name);
     if (node == kNone) return std::nullopt;

@@ -6,21 +6,25 @@
 #include <utility>
 
 #include "runtime/base/math.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 
+struct SceneShapes;
+
 // "torso/head/eye", by ids; of a node with neither id nor name its number from 1: "#7".
 std::string number_name(uint32_t node);
-std::string node_path(const Scene& scene, uint32_t node);
-uint32_t find_node(const Scene& scene, const std::string& path_id_or_name);  // kNone: none
+std::string node_path(const SceneNodes& scene, uint32_t node);
+uint32_t find_node(const SceneNodes& scene, const std::string& path_id_or_name);  // kNone: none
 
 // The box around what is on the node and below it, as it stands; nothing: low > high.
-std::pair<dvec3, dvec3> box_of(const Scene& scene, const Pose& pose, uint32_t node);
+std::pair<dvec3, dvec3> box_of(const SceneNodes& scene, const SceneShapes& shapes, const Pose& pose,
+                               uint32_t node);
 
 // Where a node stands at a time, in seconds; the pose is evaluated there. Nothing where there is
 // none of that name.
-std::optional<dvec3> place_at(const Scene& scene, Pose& pose, const std::string& node,
+std::optional<dvec3> place_at(const SceneNodes& scene, Pose& pose, const std::string& node,
                               double seconds);
 
 }  // namespace kinora

@@ -5,7 +5,7 @@
 
 namespace kinora {
 
-void choose_camera(const Scene& scene, Pose& pose, const SessionCamera& camera) {
+void choose_camera(const SceneCameras& scene, Pose& pose, const SessionCamera& camera) {
     auto is_it = [&](uint32_t index) {
         return index < scene.cameras.size() && scene.cameras[index].name == camera.name;
     };
@@ -20,7 +20,7 @@ void choose_camera(const Scene& scene, Pose& pose, const SessionCamera& camera) 
     }
 }
 
-PlacedCamera placed_camera(const Scene& scene, Pose& pose, const FreeCamera& own,
+PlacedCamera placed_camera(const SceneNodes& scene, Pose& pose, const FreeCamera& own,
                            const std::optional<std::pair<std::string, dvec3>>& follow,
                            double seconds) {
     PlacedCamera placed{own.optics(), own.world_from_camera()};

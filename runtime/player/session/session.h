@@ -49,9 +49,9 @@ std::optional<Session> read_session(const std::string& file, std::string& error)
 std::string session_text(const Session& session);
 
 // Chooses the camera that the pose is seen by.
-void choose_camera(const Scene& scene, Pose& pose, const SessionCamera& camera);
+void choose_camera(const SceneCameras& scene, Pose& pose, const SessionCamera& camera);
 // The camera moved by hand, at a time in seconds: where it follows a node the pose is evaluated.
-PlacedCamera placed_camera(const Scene& scene, Pose& pose, const FreeCamera& own,
+PlacedCamera placed_camera(const SceneNodes& scene, Pose& pose, const FreeCamera& own,
                            const std::optional<std::pair<std::string, dvec3>>& follow,
                            double seconds);
 

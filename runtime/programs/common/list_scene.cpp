@@ -8,6 +8,7 @@
 
 #include "runtime/kinora/contents.h"
 #include "runtime/scene/description/play_range.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "runtime/scene/scene.h"
-
 namespace kinora {
+
+struct Scene;
 
 // "cameras", "clips", ..., and "all" at the end.
 const std::vector<std::string_view>& list_kinds();

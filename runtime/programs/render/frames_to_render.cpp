@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "runtime/kinora/open_scene.h"
 #include "runtime/scene/description/findings.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/resources.h"
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
@@ -34,11 +34,11 @@ bool reads_time(const ShaderInstance& look) {
 }
 
 // A file may have a range, and nothing in it that moves.
-bool has_one_picture(const Scene& scene) {
+bool has_one_picture(const SceneDescription& description, const SceneShaders& shaders) {
     auto reads = [](const auto& look) { return reads_time(*look); };
-    return scene.description->animation.channels.empty() &&
-           std::ranges::none_of(scene.shader_instances, reads) &&
-           std::ranges::none_of(scene.vertex_instances, reads);
+    return description.animation.channels.empty() &&
+           std::ranges::none_of(shaders.shader_instances, reads) &&
+           std::ranges::none_of(shaders.vertex_instances, reads);
 }
 
 bool names_one_file(const RenderOptions& options) {
@@ -48,7 +48,8 @@ bool names_one_file(const RenderOptions& options) {
 }  // namespace
 
 std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRate rate,
-                                           const Scene& scene) {
+                                           const SceneResources& scene,
+                                           const SceneShaders& shaders) {
     const double start = scene.options.start_time, end = scene.options.end_time;
     FrameTimes list;
     if (const auto& own = scene.description->file_picture) {
@@ -66,7 +67,7 @@ std::optional<FrameTimes> frames_to_render(const RenderOptions& options, FrameRa
             list.emplace_back(frame, rate.time(frame));
     } else {
         double first = std::round(start * rate.value());
-        double last = names_one_file(options) && has_one_picture(scene)
+        double last = names_one_file(options) && has_one_picture(*scene.description, shaders)
                           ? first
                           : std::round(end * rate.value());
         bool sound = std::abs(first) < kFurthestFrame && std::abs(last) < kFurthestFrame;
@@ -103,7 +104,7 @@ FrameTimes middle_of_shot(const RenderOptions& options, FrameRate rate, double s
     return {{before, rate.time(before)}, {middle, rate.time(middle)}};
 }
 
-void report_past(const RenderOptions& options, FrameRate rate, const Scene& scene,
+void report_past(const RenderOptions& options, FrameRate rate, const SceneResources& scene,
                  const FrameTimes& frames, Diagnostics& diagnostics) {
     const SceneOptions& played = scene.options;
     const bool chosen = options.frames || options.time;

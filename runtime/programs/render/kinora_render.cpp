@@ -378,7 +378,7 @@ void catch_signals() {
 }
 
 bool Render::list_frames() {
-    auto list = frames_to_render(options_, scene_.rate(), scene_.scene());
+    auto list = frames_to_render(options_, scene_.rate(), scene_.scene(), scene_.scene());
     if (!list) return false;
     list_ = std::move(*list);
     report_past(options_, scene_.rate(), scene_.scene(), list_, scene_.diagnostics());

@@ -6,7 +6,7 @@
 
 #include "runtime/programs/render/options.h"
 #include "runtime/programs/render/run_report.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 

@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kNoHit = std::numeric_limits<float>::infinity();
 
-std::vector<dvec3> shape_positions(const Scene& scene, const Shape& shape, const ShapePose& stands,
-                                   size_t most) {
+std::vector<dvec3> shape_positions(const SceneShapes& scene, const Shape& shape,
+                                   const ShapePose& stands, size_t most) {
     std::vector<dvec3> positions;
     std::span<const vec4> shown = stands.shown_positions;
     size_t step = std::max<size_t>(1, (shown.size() + most - 1) / most);
@@ -47,7 +47,7 @@ void put_ray(const raytrace::Camera& camera, size_t pixel, raytrace::RayPacket16
 }
 
 // Raster position of a world point; nothing behind the camera.
-std::optional<dvec2> raster(const Scene& scene, const Pose& pose, const dvec3& world) {
+std::optional<dvec2> raster(const SceneExtent& scene, const Pose& pose, const dvec3& world) {
     const raytrace::Camera& camera = pose.view;
     dvec3 d = world - scene.origin - camera.eye;
     double depth = camera.orthographic ? 1.0 : glm::dot(d, camera.forward);
@@ -71,7 +71,7 @@ bool for_each_pair(std::span<const std::vector<dvec3>> a, std::span<const std::v
 
 }  // namespace
 
-std::vector<std::vector<dvec3>> vertex_positions(const Scene& scene, const Pose& pose,
+std::vector<std::vector<dvec3>> vertex_positions(const SceneShapes& scene, const Pose& pose,
                                                  size_t most) {
     std::vector<std::vector<dvec3>> positions;
     for (size_t s = 0; s < scene.shapes.size(); ++s)
@@ -111,7 +111,7 @@ std::optional<double> largest_step(std::span<const std::vector<dvec3>> a,
     return same ? std::optional(largest) : std::nullopt;
 }
 
-std::optional<double> largest_step_pixels(const Scene& scene, const Pose& pose,
+std::optional<double> largest_step_pixels(const SceneExtent& scene, const Pose& pose,
                                           std::span<const std::vector<dvec3>> a,
                                           std::span<const std::vector<dvec3>> b) {
     double largest = 0;

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "runtime/picture/compare/picture.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 
 // World positions of the vertices of each shape, at most `most` of one, evenly chosen.
-std::vector<std::vector<dvec3>> vertex_positions(const Scene& scene, const Pose& pose, size_t most);
+std::vector<std::vector<dvec3>> vertex_positions(const SceneShapes& scene, const Pose& pose,
+                                                 size_t most);
 
 // Distances along the rays through the pixels' centres of Pose::view; infinite where none is hit.
 // The pose's tree is that of the last frame.
@@ -20,7 +22,7 @@ std::vector<float> hit_distances(const Pose& pose);
 std::optional<double> largest_step(std::span<const std::vector<dvec3>> a,
                                    std::span<const std::vector<dvec3>> b);
 // Likewise as Pose::view sees them, pixels; what lies behind the camera is left out.
-std::optional<double> largest_step_pixels(const Scene& scene, const Pose& pose,
+std::optional<double> largest_step_pixels(const SceneExtent& scene, const Pose& pose,
                                           std::span<const std::vector<dvec3>> a,
                                           std::span<const std::vector<dvec3>> b);
 

@@ -204,7 +204,7 @@ std::string path_of(const NodeTree& tree, uint32_t node) {
     return path;
 }
 
-uint32_t find_node(const Scene& scene, const NodeTree& tree, const std::string& wanted) {
+uint32_t find_node(const SceneNodes& scene, const NodeTree& tree, const std::string& wanted) {
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         const NodeDefinition& node = tree.definition(n);
         if (wanted == node.id || wanted == node.name || wanted == path_of(tree, n)) return n;

@@ -3,9 +3,10 @@
 
 #include "runtime/scene/build/shapes/node_tree.h"
 #include "runtime/scene/build/views.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Scene;
 
 // Half of the picture's width over half of its height that scenes are framed for.
 double wanted_aspect(const SceneOptions& options);
@@ -16,7 +17,7 @@ double wanted_aspect(const SceneOptions& options);
 bool add_camera(Scene& scene, NodeTree& tree, const ViewWord& view, Diagnostics& diagnostics);
 
 // The first node of that path, id or name; kNone: there is none.
-uint32_t find_node(const Scene& scene, const NodeTree& tree, const std::string& wanted);
+uint32_t find_node(const SceneNodes& scene, const NodeTree& tree, const std::string& wanted);
 // "torso/head/eye", by ids.
 std::string path_of(const NodeTree& tree, uint32_t node);
 

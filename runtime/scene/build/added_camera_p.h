@@ -9,6 +9,7 @@
 #include "runtime/scene/build/added_camera.h"
 #include "runtime/scene/build/core.h"
 #include "runtime/scene/build/shapes/shown_vertices.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -41,7 +42,7 @@ class AddedCamera {
           options_(scene.options.view),
           view_(view),
           frame_(up_axis_frame(scene.description->up_axis)),
-          vertices_(scene) {}
+          vertices_(scene, scene.start) {}
 
     bool choose_subject(Diagnostics& diagnostics);
     void add(Diagnostics& diagnostics);

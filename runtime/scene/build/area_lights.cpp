@@ -5,10 +5,10 @@
 
 namespace kinora {
 
-bool add_area_lights(Scene& scene, std::span<const SurfaceUse> uses) {
-    SceneDescription& description = *scene.description;
+bool add_area_lights(SceneDescription& description, const SceneShapes& shapes, SceneLights& scene,
+                     std::span<const SurfaceUse> uses) {
     size_t before = scene.lights.size();
-    for (uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+    for (uint32_t s = 0; s < shapes.surfaces.size(); ++s) {
         const MaterialUse* use = uses[s].material;
         if (!use || use->material == kNone) continue;
         const MaterialDefinition& material = description.materials[use->material];
@@ -24,7 +24,7 @@ bool add_area_lights(Scene& scene, std::span<const SurfaceUse> uses) {
             definition.samples = material.light_samples;
             description.lights.push_back(std::move(definition));
             scene.lights.push_back({uint32_t(description.lights.size() - 1),
-                                    scene.shapes[scene.surfaces[s].shape].node, kNone, s});
+                                    shapes.shapes[shapes.surfaces[s].shape].node, kNone, s});
         }
     }
     return scene.lights.size() > before;

@@ -66,10 +66,12 @@ void drop_vertices(Pose& start) {
     start.watched.clear();
 }
 
-// False, with an error, for a file that holds nothing to see. What the user hides is no error.
+// False, with an error, for a file that holds nothing to see. What the user hides is no error, nor
+// is an empty picture where the file says what its picture is.
 bool something_to_draw(const Scene& scene, Diagnostics& diagnostics) {
     const SceneDescription& description = *scene.description;
     if (anything_to_draw(scene) || has_picture_shaders(description)) return true;
+    if (description.file_picture) return true;
     bool hidden = takes_parts(description);
     if (!hidden && raise_findings(diagnostics, "XML_")) return false;
     diagnostics.report(hidden ? Code::SCENE_HIDDEN : Code::SCENE_EMPTY, Location{});
@@ -86,11 +88,13 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
     std::unique_ptr<Scene> made =
         empty_scene(std::move(description), options, again ? again->textures : nullptr);
     Scene& scene = *made;
+    SceneNodes& nodes = scene;
+    SceneShapes& shapes = scene;
 
-    NodeTree tree(scene);
-    SkinBinder skins(scene, tree, node_poses(scene), diagnostics);
+    NodeTree tree(nodes, scene.start);
+    SkinBinder skins(nodes, tree, node_poses(nodes, scene.start), diagnostics);
     evaluate_anew(scene, scene.start, options.start_time);
-    std::vector<SurfaceUse> uses = add_shapes(scene, skins, diagnostics);
+    std::vector<SurfaceUse> uses = add_shapes(nodes, shapes, scene.start, skins, diagnostics);
     if (!something_to_draw(scene, diagnostics)) return nullptr;
     set_bounds(scene);
     suit_math(scene);
@@ -109,8 +113,8 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
         return nullptr;
     }
     scene.baked_samplers = anim::baked(scene.description->animation, key_options(options.quality));
-    set_rows(scene);
-    find_moving_parts(scene);
+    set_rows(shapes, scene);
+    find_moving_parts(nodes, shapes);
     if (scene.moving.surfaces.empty()) scene.still_tree = std::make_shared<StillTree>();
     drop_vertices(scene.start);
     return made;

@@ -12,6 +12,7 @@
 #include "runtime/scene/build/shapes/pose_at.h"
 #include "runtime/scene/camera.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/values.h"
 
 namespace kinora {
@@ -69,12 +70,14 @@ bool change_yfov(Scene& scene, double yfov, Diagnostics& diagnostics) {
     camera.x = {};
     camera.y = slot(yfov);
     camera.aspect = aspect ? slot(*aspect) : ValueSlot{};
-    take_added_values(scene);
+    take_added_values(description, scene.start);
     return true;
 }
 
-// What has to be seen at least: of a scene that the user took parts of, anything.
+// What has to be seen at least: of a scene that the user took parts of, anything. A file that says
+// what its picture is may show nothing.
 double little_of(const Scene& scene) {
+    if (scene.description->file_picture) return 0;
     return takes_parts(*scene.description) ? 1e-6 : kLittle;
 }
 

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "runtime/scene/build/shapes/node_tree.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Scene;
 
 // Every occurrence of a camera. Writes Scene::cameras.
 void add_cameras(Scene& scene, const NodeTree& tree);

@@ -95,8 +95,8 @@ class CoverageGrid {
 };
 
 // All positions of a shape, in accel space.
-void place_vertices(const Scene& scene, const Pose& pose, uint32_t index, const CoverageGrid& grid,
-                    std::vector<Seen>& vertices) {
+void place_vertices(const SceneShapes& scene, const Pose& pose, uint32_t index,
+                    const CoverageGrid& grid, std::vector<Seen>& vertices) {
     const Shape& shape = scene.shapes[index];
     const Mesh& mesh = scene.meshes[shape.mesh];
     vertices.clear();
@@ -113,7 +113,7 @@ void place_vertices(const Scene& scene, const Pose& pose, uint32_t index, const 
 
 }  // namespace
 
-double covered_share(const Scene& scene, const Pose& pose, const raytrace::Camera& camera,
+double covered_share(const SceneShapes& scene, const Pose& pose, const raytrace::Camera& camera,
                      double enough) {
     CoverageGrid grid(camera);
     std::vector<Seen> vertices;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
@@ -91,7 +92,7 @@ void set_number(Scene& scene, ShaderUse& use, const char* name, double number) {
     source.name = name;
     source.value = {uint32_t(values.size()), 1};
     values.push_back(number);
-    take_added_values(scene);
+    take_added_values(*scene.description, scene.start);
     std::erase_if(use.params, [&](const ParamSource& p) { return p.name == name; });
     use.params.push_back(std::move(source));
 }

@@ -1,9 +1,11 @@
 // runtime/scene/build/light_watts.h: COLLADA's lights that are in watts.
 #pragma once
 
-#include "runtime/scene/scene.h"
+#include "runtime/base/diagnostic.h"
 
 namespace kinora {
+
+struct Scene;
 
 // Gives those of Scene::lights that are in watts a brightness for a picture, with a finding. Lights
 // of Blender get the fall-off and brightness they have there. Others are scaled together where they

@@ -8,6 +8,7 @@
 #include "runtime/scene/build/instances/instances.h"
 #include "runtime/scene/build/light_watts.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
 
@@ -56,7 +57,7 @@ bool needs_no_light(const Scene& scene, std::span<const SurfaceUse> uses) {
 
 void add_default_light(Scene& scene, LightDefinition definition, uint32_t node) {
     SceneDescription& description = *scene.description;
-    take_added_values(scene);
+    take_added_values(description, scene.start);
     description.lights.push_back(std::move(definition));
     scene.lights.push_back({uint32_t(description.lights.size() - 1), node, kNone, kNone});
     scene.added.push_back(description.lights.back().name);
@@ -107,10 +108,11 @@ bool add_default_lights(Scene& scene, Diagnostics& diagnostics) {
     scene.options.lights = LightSet::Both;
     std::vector<LightDefinition> lights = lights_to_add(scene);
     NodeDefinition carrier = default_light_node(scene.description->values);
-    uint32_t node = add_node(scene, std::move(carrier), scene.cameras[scene.start.camera].node);
+    uint32_t node =
+        add_node(scene, scene.start, std::move(carrier), scene.cameras[scene.start.camera].node);
     for (LightDefinition& light : lights)
         if (light.name != kGreyWorld) add_default_light(scene, std::move(light), node);
-    find_moving_parts(scene);
+    find_moving_parts(scene, scene);
     return add_light_instances(scene, diagnostics);
 }
 
@@ -119,7 +121,7 @@ void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
     LightSet wanted = scene.options.lights;
     bool lit = false;
     if (wanted != LightSet::Default) {
-        bool by_area = add_area_lights(scene, uses);
+        bool by_area = add_area_lights(*scene.description, scene, scene, uses);
         lit = add_lights_of_nodes(scene, tree) || by_area;
         scale_watts(scene, diagnostics);
     }

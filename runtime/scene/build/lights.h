@@ -5,9 +5,10 @@
 
 #include "runtime/scene/build/shapes/node_tree.h"
 #include "runtime/scene/build/shapes/surface_use.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Scene;
 
 // Every occurrence of a light, area lights before others; default lights at the camera where the
 // scene has none that light anything, or as the options say. Writes Scene::lights and added. The

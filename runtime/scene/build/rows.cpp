@@ -7,12 +7,12 @@
 
 namespace kinora {
 
-void set_rows(Scene& scene) {
+void set_rows(SceneShapes& scene, const SceneShaders& shaders) {
     scene.rows.resize(scene.surfaces.size());
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> numbers;  // of instanced mesh groups
     for (size_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
-        const ShaderInstance& instance = *scene.shader_instances[surface.look];
+        const ShaderInstance& instance = *shaders.shader_instances[surface.look];
         const Shape& shape = scene.shapes[surface.shape];
         const Mesh& mesh = scene.meshes[shape.mesh];
         bool instanced = shape.kind == raytrace::GeometryKind::Instanced;

@@ -27,14 +27,14 @@ float between(const Corner& c, const VaryingParam& param, const float x[3]) {
     return w >= c.u && w >= c.v ? x[0] : c.u >= c.v ? x[1] : x[2];
 }
 
-float varying_at(const Scene& scene, const Pose& pose, const raytrace::HitBatch& hits, uint32_t hit,
-                 size_t which, uint32_t component) {
+float varying_at(const SceneShapes& scene, const Pose& pose, const ShaderInstance& look,
+                 const raytrace::HitBatch& hits, uint32_t hit, size_t which, uint32_t component) {
     const Surface& surface = scene.surfaces[hits.instance[hit]];
     const Shape& shape = scene.shapes[surface.shape];
     const Mesh& mesh = scene.meshes[shape.mesh];
     Corner c{surface,     pose,       mesh, mesh.groups[surface.group], hits.primitive[hit],
              hits.u[hit], hits.v[hit]};
-    const VaryingParam& param = scene.shader_instances[surface.look]->varying[which];
+    const VaryingParam& param = look.varying[which];
     float x[3];
     corner_values(c, param, surface.varying[which], component, x);
     return between(c, param, x);

@@ -2,8 +2,9 @@
 // there.
 #pragma once
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/pose.h"
 #include "runtime/scene/shaders/shader_instance.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 

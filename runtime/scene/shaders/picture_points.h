@@ -10,7 +10,7 @@
 namespace kinora {
 
 struct Pose;
-struct Scene;
+struct SceneShapes;
 struct ShaderInstance;
 
 inline constexpr size_t kGridPoints = 1024;  // one grid at most; its columns stay in the L2 cache
@@ -56,7 +56,7 @@ struct PicturePoints {
 
 // Number `component` of ShaderInstance::varying[which] of the look that a hit's surface wears: the
 // bits that its column would have.
-float varying_at(const Scene& scene, const Pose& pose, const raytrace::HitBatch& hits, uint32_t hit,
-                 size_t which, uint32_t component);
+float varying_at(const SceneShapes& scene, const Pose& pose, const ShaderInstance& look,
+                 const raytrace::HitBatch& hits, uint32_t hit, size_t which, uint32_t component);
 
 }  // namespace kinora

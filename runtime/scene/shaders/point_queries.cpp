@@ -8,7 +8,7 @@
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/scene/images/point_store.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 
@@ -81,7 +81,7 @@ vec3 photon_density(const PointCloud& cloud, int offset, vec3 P, vec3 N, int wan
 
 }  // namespace
 
-void look_up_points(const Scene& scene, const Pose& pose, const jit::ServiceCall& call) {
+void look_up_points(PointStore& store, const Pose& pose, const jit::ServiceCall& call) {
     ArgumentRows rows{call};
     ToWorld to_world(pose);
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
@@ -89,7 +89,7 @@ void look_up_points(const Scene& scene, const Pose& pose, const jit::ServiceCall
         for (int k = 0; k < rsl::kPointFloats; ++k)
             call.results[(1 + k) * jit::kMaxLanes + lane] = 0;
         if (!(call.mask >> lane & 1)) continue;
-        PointStore::Lookup found = scene.points->find(rows.integer(0, lane), rows.integer(1, lane));
+        PointStore::Lookup found = store.find(rows.integer(0, lane), rows.integer(1, lane));
         if (!found.cloud) continue;
         vec3 P = rows.triple(2, lane), N = rows.triple(5, lane);
         bool as_is = rows.number(8, lane) < 0;
@@ -109,7 +109,7 @@ void look_up_points(const Scene& scene, const Pose& pose, const jit::ServiceCall
     }
 }
 
-void look_up_photons(const Scene& scene, const Pose& pose, const jit::ServiceCall& call) {
+void look_up_photons(PointStore& store, const Pose& pose, const jit::ServiceCall& call) {
     static const int32_t kPower = rsl::intern("color power");
     static const int32_t kDiffusion = rsl::intern("color _ssdiffusion,color _radiance_t");
     ArgumentRows rows{call};
@@ -120,7 +120,7 @@ void look_up_photons(const Scene& scene, const Pose& pose, const jit::ServiceCal
         if ((call.mask >> lane & 1) && file != 0) {
             auto kind = rsl::PhotonKind(rows.integer(1, lane));
             bool scattered = kind == rsl::PhotonKind::Subsurface;
-            PointStore::Lookup found = scene.points->find(file, scattered ? kDiffusion : kPower);
+            PointStore::Lookup found = store.find(file, scattered ? kDiffusion : kPower);
             vec3 P = to_world.position(rows.triple(3, lane));
             vec3 N = to_world.direction(rows.triple(6, lane));
             if (found.cloud && scattered) {

@@ -48,9 +48,9 @@ void to_current(rsl::BaseType type, const Asker& asker, const ShaderInstance& lo
                 const double* values, QueryAnswer& answer) {
     SpaceOwner owner = look.space_owner();
     uint32_t row = owner.node == kNone ? surface_row(asker) : kNone;
-    if (row != kNone && asker.scene.surfaces[row].look == look.index)
-        owner.node = asker.scene.shapes[asker.scene.surfaces[row].shape].node;
-    to_current(type, current_from_space(asker.scene, asker.pose, "shader", owner), values, answer);
+    if (row != kNone && asker.shapes.surfaces[row].look == look.index)
+        owner.node = asker.shapes.shapes[asker.shapes.surfaces[row].shape].node;
+    to_current(type, current_from_space(asker.nodes, asker.pose, "shader", owner), values, answer);
 }
 
 rsl::BaseType parameter_type(const ShaderUse& use, std::string_view name) {
@@ -72,7 +72,7 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
         size_t point = asker.point + asker.seen->lit_first;
         uint32_t hit = seen.points[point], row = seen.hits.instance[hit];
         if (row == kNone ||
-            asker.scene.shader_instances[asker.scene.surfaces[row].look].get() != &look)
+            asker.shaders.shader_instances[asker.shapes.surfaces[row].look].get() != &look)
             return false;
         uint32_t count = uint32_t(query.components());
         uint32_t first = query.element > 0 ? uint32_t(query.element) * count : 0;
@@ -80,17 +80,17 @@ bool from_vertices(const Asker& asker, const ShaderInstance& look, uint32_t laye
             bool read = seen.look == &look && v.column != kNoColumn &&
                         seen.columns.size() > size_t(v.column + first + c);
             const float* column = read ? seen.columns[v.column + first + c] : nullptr;
-            answer[c] = column
-                            ? column[point]
-                            : varying_at(asker.scene, asker.pose, seen.hits, hit, which, first + c);
+            answer[c] = column ? column[point]
+                               : varying_at(asker.shapes, asker.pose, look, seen.hits, hit, which,
+                                            first + c);
         }
         rsl::BaseType type = parameter_type(look.layers[layer], v.name);
         if (rsl::is_spatial(type) && !v.of_displacement()) {  // the mesh's: in the object's space
-            uint32_t shape = asker.scene.surfaces[row].shape;
+            uint32_t shape = asker.shapes.surfaces[row].shape;
             const double values[] = {answer[0], answer[1], answer[2]};
             to_current(type,
-                       current_from_space(asker.scene, asker.pose, "object",
-                                          asker.scene.shapes[shape].node),
+                       current_from_space(asker.nodes, asker.pose, "object",
+                                          asker.shapes.shapes[shape].node),
                        values, answer);
         }
         return true;
@@ -144,7 +144,7 @@ bool from_default(const Asker& asker, const ShaderInstance& look,
     return true;
 }
 
-const ShaderInstance* look_at(const Scene& scene, uint32_t index) {
+const ShaderInstance* look_at(const SceneShaders& scene, uint32_t index) {
     return index < scene.shader_instances.size() ? scene.shader_instances[index].get() : nullptr;
 }
 
@@ -157,13 +157,13 @@ const ShaderInstance* volume_of(const Asker& asker, bool opposite) {
     for (size_t k = 0; k < 3; ++k) along += seen.hits.dir[k][hit] * seen.hits.Ng[k][hit];
     bool from_outside = along < 0;
     const Surface& surface = asker.surface();
-    return look_at(asker.scene, from_outside != opposite ? surface.exterior : surface.interior);
+    return look_at(asker.shaders, from_outside != opposite ? surface.exterior : surface.interior);
 }
 
 const ShaderInstance* light_of(const Asker& asker) {
-    const auto& lights = asker.scene.lights;
+    const auto& lights = asker.lights.lights;
     const size_t light = size_t(asker.light);
-    return light < lights.size() ? look_at(asker.scene, lights[light].look) : nullptr;
+    return light < lights.size() ? look_at(asker.shaders, lights[light].look) : nullptr;
 }
 
 struct Asked {
@@ -176,14 +176,14 @@ Asked whom(QueryKind kind, const Asker& asker) {
     if (asker.seen && asker.seen->surface)
         surface = asker.seen->surface;
     else if (surface->kind != ShaderInstanceKind::Surface)
-        surface = asker.on_surface() ? look_at(asker.scene, asker.surface().look) : nullptr;
+        surface = asker.on_surface() ? look_at(asker.shaders, asker.surface().look) : nullptr;
     switch (kind) {
         case QueryKind::Surface:
             return {surface, rsl::ShaderKind::Surface};
         case QueryKind::Displacement:
             return {surface, rsl::ShaderKind::Displacement};
         case QueryKind::Atmosphere:
-            return {look_at(asker.scene, asker.scene.atmosphere), rsl::ShaderKind::Volume};
+            return {look_at(asker.shaders, asker.shaders.atmosphere), rsl::ShaderKind::Volume};
         case QueryKind::Incident:
             return {volume_of(asker, false), rsl::ShaderKind::Volume};
         case QueryKind::Opposite:
@@ -228,7 +228,7 @@ bool answer_query_at(QueryKind kind, const Asker& asker, const Query& query, Que
 }  // namespace
 
 const Surface& Asker::surface() const {
-    return scene.surfaces[seen->hits.instance[hit()]];
+    return shapes.surfaces[seen->hits.instance[hit()]];
 }
 
 bool answer_parameter(const Asker& asker, const ShaderInstance& look, rsl::ShaderKind kind,
@@ -283,7 +283,7 @@ bool ask_the_same(const jit::ServiceCall& call, int first) {
 void answer_query(const Scene& scene, const Pose& pose, const ShaderInstance& look,
                   const PicturePoints* seen, const jit::ServiceCall& call) {
     auto answer_at = [&](int lane, QueryAnswer& answer) {
-        Asker asker{scene, pose, look, seen, 0, integer(call, 5, lane)};
+        Asker asker{scene, scene, scene, scene, pose, look, seen, 0, integer(call, 5, lane)};
         if (seen) asker.point = std::min(size_t(call.first + lane), seen->count() - 1);
         return answer_query_at(QueryKind(integer(call, 0, lane)), asker, query_of(call, lane),
                                answer);

@@ -13,11 +13,18 @@
 
 namespace kinora {
 
+struct Scene;
+struct SceneLights;
+struct SceneNodes;
+struct SceneShaders;
 struct Surface;
 
 // Who asks: a point of a grid, or nobody in particular (frame rate).
 struct Asker {
-    const Scene& scene;
+    const SceneNodes& nodes;
+    const SceneShapes& shapes;
+    const SceneLights& lights;
+    const SceneShaders& shaders;
     const Pose& pose;
     const ShaderInstance& look;
     const PicturePoints* seen = nullptr;

@@ -7,8 +7,11 @@
 
 #include "runtime/base/numbers.h"
 #include "runtime/scene/description/play_range.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/queries.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 
@@ -48,16 +51,16 @@ Fact constant(const Asker&) {
 // ---- attribute ----------------------------------------------------------------------------------
 
 const NodeDefinition& node_of(const Asker& asker) {
-    const Shape& shape = asker.scene.shapes[asker.surface().shape];
-    return asker.scene.description->nodes[asker.scene.nodes[shape.node].definition];
+    const Shape& shape = asker.shapes.shapes[asker.surface().shape];
+    return asker.nodes.description->nodes[asker.nodes.nodes[shape.node].definition];
 }
 const ShaderInstance& look_of(const Asker& asker) {
-    return *asker.scene.shader_instances[asker.surface().look];
+    return *asker.shaders.shader_instances[asker.surface().look];
 }
 
 // The material or the mesh may say so.
 bool one_sided(const Asker& asker) {
-    return asker.scene.rows[asker.seen->hits.instance[asker.hit()]].hide_backfaces;
+    return asker.shapes.rows[asker.seen->hits.instance[asker.hit()]].hide_backfaces;
 }
 Fact sides(const Asker& asker) {
     return one_sided(asker) ? 1.0 : 2.0;
@@ -70,18 +73,17 @@ Fact material_name(const Asker& asker) {
     return std::string_view(look_of(asker).name);
 }
 Fact mesh_name(const Asker& asker) {
-    const Scene& scene = asker.scene;
-    uint32_t mesh = scene.shapes[asker.surface().shape].mesh;
-    return std::string_view(scene.description->meshes[scene.meshes[mesh].definition].id);
+    const Mesh& mesh = asker.shapes.meshes[asker.shapes.shapes[asker.surface().shape].mesh];
+    return std::string_view(asker.nodes.description->meshes[mesh.definition].id);
 }
 Fact row_number(const Asker& asker) {
     return double(asker.seen->hits.instance[asker.hit()]);
 }
 Fact ray_depth(const Asker& asker) {
-    return double(asker.scene.options.quality.ray_depth);
+    return double(asker.nodes.options.quality.ray_depth);
 }
 Fact diffuse_depth(const Asker& asker) {
-    return double(asker.scene.options.quality.diffuse_depth);
+    return double(asker.nodes.options.quality.diffuse_depth);
 }
 Fact backfacing(const Asker& asker) {
     return one_sided(asker) ? 1.0 : 0.0;
@@ -141,15 +143,15 @@ Fact clipping(const Asker& asker) {
     return {asker.pose.view.znear, asker.pose.view.zfar};
 }
 Fact frame(const Asker& asker) {
-    double asked = asker.scene.options.frame_rate;
-    double rate = asked > 0 ? asked : play_range(*asker.scene.description).rate;
+    double asked = asker.nodes.options.frame_rate;
+    double rate = asked > 0 ? asked : play_range(*asker.nodes.description).rate;
     return std::round(asker.pose.time * rate);
 }
 Fact projection(const Asker& asker) {
     return std::string_view(asker.pose.view.orthographic ? "orthographic" : "perspective");
 }
 Fact scene_file(const Asker& asker) {
-    return std::string_view(asker.scene.description->path);
+    return std::string_view(asker.nodes.description->path);
 }
 
 constexpr Row kOptions[] = {
@@ -306,10 +308,10 @@ bool read(const Fact& fact, const Query& query, QueryAnswer& answer) {
 
 // "user:NAME" of the node, else of the nodes above it.
 bool user_attribute(const Asker& asker, const Query& query, QueryAnswer& answer) {
-    const Shape& shape = asker.scene.shapes[asker.surface().shape];
-    for (uint32_t n = shape.node; n != kNone; n = asker.scene.nodes[n].parent) {
+    const Shape& shape = asker.shapes.shapes[asker.surface().shape];
+    for (uint32_t n = shape.node; n != kNone; n = asker.nodes.nodes[n].parent) {
         const NodeDefinition& node =
-            asker.scene.description->nodes[asker.scene.nodes[n].definition];
+            asker.nodes.description->nodes[asker.nodes.nodes[n].definition];
         for (const UserAttribute& user : node.attributes) {
             if (user.name != query.name) continue;
             if (user.numbers.empty()) {

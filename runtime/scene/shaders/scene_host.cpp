@@ -25,10 +25,10 @@ dmat4 SceneHost::world_from_current() const {
     return glm::inverse(kinora::current_from_space(scene_, pose_, "world", kNone));
 }
 void SceneHost::texture3d(const jit::ServiceCall& call) {
-    look_up_points(scene_, pose_, call);
+    look_up_points(*scene_.points, pose_, call);
 }
 void SceneHost::photons(const jit::ServiceCall& call) {
-    look_up_photons(scene_, pose_, call);
+    look_up_photons(*scene_.points, pose_, call);
 }
 
 void UnlitHost::query(const jit::ServiceCall& call) {
@@ -37,6 +37,9 @@ void UnlitHost::query(const jit::ServiceCall& call) {
 
 void FrameHost::print(const jit::ServiceCall& call) {
     printed_.add(call, 0);
+}
+void FrameHost::show_printed() const {
+    printed_.show(scene_.options.print);
 }
 
 dmat4 VertexHost::current_from_space(std::string_view name, size_t) const {

@@ -49,9 +49,10 @@ class UnlitHost : public SceneHost {
 class FrameHost : public UnlitHost {
   public:
     using UnlitHost::UnlitHost;
-    // Once per instance and frame; the caller shows it.
+    // Once per instance and frame; show_printed() shows it.
     void print(const jit::ServiceCall& call) override;
     const PrintedLines& printed() const { return printed_; }
+    void show_printed() const;
 
   private:
     PrintedLines printed_;

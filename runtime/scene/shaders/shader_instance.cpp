@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/base/check.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/pose.h"
 #include "runtime/scene/shaders/scene_host.h"
 #include "runtime/scene/spaces.h"
 
@@ -126,7 +126,7 @@ void run_frame_kernel(const SceneKernel& kernel, const FrameContext& context, Fr
                       std::span<const dmat4> current_from_space, FrameBlock& block) {
     kernel.run_frame(block, SceneNumbers(context, current_from_space, kernel.inputs), host, {},
                      context.stop);
-    host.printed().show(context.scene.options.print);
+    host.show_printed();
 }
 
 void run_full(const ShaderInstance& look, const FrameContext& context, InstanceFrame& frame) {
@@ -143,7 +143,7 @@ void ShaderInstance::update_for_vertices(const FrameContext& context, uint32_t o
     frame.current_from_space.resize(spaces.size());
     for (size_t s = 0; s < spaces.size(); ++s)
         frame.current_from_space[s] =
-            object_from_space(context.scene, context.pose, spaces[s], object);
+            object_from_space(context.nodes, context.pose, spaces[s], object);
     run_full(*this, context, frame);
 }
 
@@ -151,7 +151,7 @@ void ShaderInstance::update(const FrameContext& context, InstanceFrame& frame) c
     frame.current_from_space.resize(spaces.size());
     for (size_t s = 0; s < spaces.size(); ++s)
         frame.current_from_space[s] =
-            current_from_space(context.scene, context.pose, spaces[s], space_owner());
+            current_from_space(context.nodes, context.pose, spaces[s], space_owner());
     run_full(*this, context, frame);
     if (!opacity) return;
     FrameHost host(context.scene, context.pose, *this);

@@ -20,10 +20,12 @@ namespace kinora {
 
 struct Pose;
 struct Scene;
+struct SceneNodes;
 
 // What frame-rate inputs are computed from.
 struct FrameContext {
-    const Scene& scene;
+    const Scene& scene;       // what kernels look up
+    const SceneNodes& nodes;  // its
     const Pose& pose;
     dvec3 eye{0.0};                          // in "current"
     const std::atomic<int>* stop = nullptr;  // KernelCall::stop

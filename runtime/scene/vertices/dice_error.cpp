@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/scene/description/morph_weights.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/shapes.h"
 #include "runtime/scene/vertices/deform.h"
 
 namespace kinora {
@@ -91,7 +93,7 @@ void name_vertices(const Mesh& base, const DicedMesh& made,
         }
 }
 
-double longest_rigid(const Scene& scene, const Pose& pose, const WatchedEdges& watched,
+double longest_rigid(const SceneExtent& scene, const Pose& pose, const WatchedEdges& watched,
                      const Shape& shape) {
     dmat4 to_accel = accel_from_rest(scene, pose, shape, watched.anchor);
     dmat3 turn(to_accel);
@@ -105,14 +107,14 @@ double longest_rigid(const Scene& scene, const Pose& pose, const WatchedEdges& w
     return most;
 }
 
-double longest_posed(const Scene& scene, Pose& pose, const WatchedEdges& watched, uint32_t shape,
-                     WatchedPose& stands) {
+double longest_posed(const SceneDescription& description, Pose& pose, const WatchedEdges& watched,
+                     uint32_t shape, uint32_t morph, WatchedPose& stands) {
     stands.morphed.resize(watched.vertices.size());
     stands.posed.resize(watched.vertices.size());
     std::span<const vec4> rest = watched.rest;
     ShapePose& moved = pose.shapes[shape];
-    if (uint32_t morph = scene.shapes[shape].morph; morph != kNone) {
-        morph_weights(*scene.description, pose.values, morph, moved.morph_weights);
+    if (morph != kNone) {
+        morph_weights(description, pose.values, morph, moved.morph_weights);
         skin::deform(watched.morph, moved.morph_weights, stands.morphed, {});
         rest = stands.morphed;
     }
@@ -126,7 +128,8 @@ double longest_posed(const Scene& scene, Pose& pose, const WatchedEdges& watched
 
 }  // namespace
 
-dmat4 accel_from_rest(const Scene& scene, const Pose& pose, const Shape& shape, dvec3 anchor) {
+dmat4 accel_from_rest(const SceneExtent& scene, const Pose& pose, const Shape& shape,
+                      dvec3 anchor) {
     dmat4 from_anchor(1.0), to_accel(1.0);
     from_anchor[3] = dvec4(anchor, 1.0);
     to_accel[3] = dvec4(-scene.origin, 1.0);
@@ -147,15 +150,18 @@ void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8
         for (uint32_t end : edge) out.rest.push_back(made.mesh.positions[end]);
 }
 
-double dice_error(const Scene& scene, Pose& pose) {
+double dice_error(const SceneDescription& description, const SceneShapes& scene, Pose& pose) {
     double most = 0;
     for (size_t w = 0; w < scene.watched.size(); ++w) {
         const WatchedEdges& watched = *scene.watched[w];
         const bool deforms = watched.deforms();
         if (!watched.ends.empty() && !deforms) continue;  // no scene yet
-        for (uint32_t h : watched.shapes)
-            most = std::max(most, deforms ? longest_posed(scene, pose, watched, h, pose.watched[w])
-                                          : longest_rigid(scene, pose, watched, scene.shapes[h]));
+        for (uint32_t h : watched.shapes) {
+            const Shape& shape = scene.shapes[h];
+            most = std::max(most, deforms ? longest_posed(description, pose, watched, h,
+                                                          shape.morph, pose.watched[w])
+                                          : longest_rigid(scene, pose, watched, shape));
+        }
     }
     return scene.watched.empty() ? 0 : most / (kLongestEdge * scene.dice.pixels);
 }

@@ -5,10 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "runtime/scene/scene.h"
 #include "runtime/scene/vertices/diced_mesh.h"
+#include "skin/morph.h"
+#include "skin/skin.h"
 
 namespace kinora {
+
+struct Pose;
+struct SceneExtent;
 
 // Edges of a diced mesh where they would be undisplaced, which is how dicing measures them: the
 // longest one of each triangle, or of some that lie together where there are many.
@@ -38,9 +42,9 @@ void choose_edges(const Mesh& base, const DicedMesh& made, std::span<const uint8
 // mesh was diced for that view: 1 or less then, 2 where the camera is twice as near. 0 where
 // nothing was diced. The nodes, joints (`pose_joints`) and the camera (`set_view`) are up to date.
 // No allocation.
-double dice_error(const Scene& scene, Pose& pose);
+double dice_error(const SceneDescription& description, const SceneShapes& scene, Pose& pose);
 
 // Accel space from a mesh's positions minus `anchor`, as the shape's node stands.
-dmat4 accel_from_rest(const Scene& scene, const Pose& pose, const Shape& shape, dvec3 anchor);
+dmat4 accel_from_rest(const SceneExtent& scene, const Pose& pose, const Shape& shape, dvec3 anchor);
 
 }  // namespace kinora

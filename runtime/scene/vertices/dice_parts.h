@@ -8,7 +8,7 @@
 
 #include "runtime/base/arena.h"
 #include "runtime/base/parallel.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shapes.h"
 #include "runtime/scene/vertices/dice.h"
 
 namespace kinora {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shapes.h"
 #include "runtime/scene/vertices/dice_parts.h"
 
 namespace kinora {

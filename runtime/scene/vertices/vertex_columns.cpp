@@ -8,6 +8,7 @@
 #include "raytrace/sampling.h"
 #include "runtime/scene/description/affine_map.h"
 #include "runtime/scene/kernels/point_source.h"
+#include "runtime/scene/pose.h"
 #include "runtime/scene/vertices/vertex_columns_p.h"
 #include "runtime/scene/vertices/vertex_work.h"
 
@@ -24,7 +25,7 @@ mat3 normal_matrix(const dmat3& l) {
 
 }  // namespace
 
-VertexSpace::VertexSpace(const Scene& scene, const Pose& pose, uint32_t node,
+VertexSpace::VertexSpace(const SceneExtent& scene, const Pose& pose, uint32_t node,
                          const dmat4& object_from_mesh, dvec3 anchor) {
     dmat4 from_anchor(1.0);
     from_anchor[3] = dvec4(anchor, 1.0);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "runtime/base/arena.h"
+#include "runtime/scene/extent.h"
 #include "runtime/scene/shaders/shader_instance.h"
 #include "runtime/scene/vertices/diced_mesh.h"
 
@@ -13,8 +14,8 @@ namespace kinora {
 
 // Between a mesh (minus its anchor) and the space of the node it is displaced in.
 struct VertexSpace {
-    VertexSpace(const Scene& scene, const Pose& pose, uint32_t node, const dmat4& object_from_mesh,
-                dvec3 anchor);
+    VertexSpace(const SceneExtent& scene, const Pose& pose, uint32_t node,
+                const dmat4& object_from_mesh, dvec3 anchor);
 
     dmat4 object{1.0};   // object_from_mesh for positions minus the anchor
     mat3 linear{1.0f};   // its linear part

@@ -12,6 +12,7 @@
 #include "runtime/base/memory/pages.h"
 #include "runtime/base/parallel.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/scene_host.h"
 #include "runtime/scene/vertices/vertex_columns_p.h"
 #include "runtime/scene/vertices/weld.h"
@@ -240,7 +241,7 @@ void VertexWork::run_group(Pass& pass, size_t g) const {
         std::fill_n(state.moved.begin() + group.first_wedge, count, vec3(0.0f));
         return;
     }
-    look->update_for_vertices({pass.scene, pass.pose, pass.space.eye_object}, pass.node,
+    look->update_for_vertices({pass.scene, pass.scene, pass.pose, pass.space.eye_object}, pass.node,
                               stage.frame);
     // Precise kernels run in the IEEE default, fast ones flush denormals
     // (docs/decisions.md#exact-arithmetic).
@@ -399,7 +400,7 @@ static bool is_own_space(std::string_view space) {
     return space == "current" || space == "object" || space == "shader";
 }
 
-bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t node) {
+bool runs_each_frame(const ShaderInstance& look, const SceneNodes& scene, uint32_t node) {
     using Source = FrameInput::Source;
     auto between = [](uint16_t c, uint16_t first) { return c >= first && c < first + 3; };
     for (uint16_t c : look.full.columns)

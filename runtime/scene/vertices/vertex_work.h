@@ -24,6 +24,9 @@
 
 namespace kinora {
 
+struct SceneNodes;
+struct VertexState;
+
 // Lists of numbers by key, joined: those of k are items[first[k]] to items[first[k + 1]].
 struct Lists {
     std::vector<uint32_t> first, items;
@@ -122,7 +125,7 @@ struct VertexState {
 
 // Whether a vertex kernel must run at every frame: it reads E, I, du, dv, time, camera space, a
 // space that moves against node `node`, or a parameter that is animated.
-bool runs_each_frame(const ShaderInstance& look, const Scene& scene, uint32_t node);
+bool runs_each_frame(const ShaderInstance& look, const SceneNodes& scene, uint32_t node);
 
 // Whether its result differs between nodes: it names a space other than its own.
 bool depends_on_node(const ShaderInstance& look);

@@ -28,7 +28,7 @@ TEST(Steps, AreOfTheSameVertices) {
 
 // A camera that sees 2 units at distance 1 in 100 pixels: 50 pixels a unit there, 25 at distance 2.
 TEST(Steps, ShrinkWithTheirDistance) {
-    Scene scene;
+    SceneExtent scene;
     Pose pose;
     pose.view.width = pose.view.height = 100;
     pose.view.half_width = pose.view.half_height = 1;

@@ -13,7 +13,8 @@
 #include <limits>
 
 #include "raytrace/hits.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/pose.h"
+#include "runtime/scene/shapes.h"
 #include "runtime/scene/transforms.h"
 
 namespace kinora {
@@ -31,10 +32,10 @@ vec3 unit(vec3 v) {
 }  // namespace
 
 void SmoothSurface::enter(uint32_t row) {
-    const Surface& surface = scene_.surfaces[row];
-    const Shape& shape = scene_.shapes[surface.shape];
+    const Surface& surface = shapes_.surfaces[row];
+    const Shape& shape = shapes_.shapes[surface.shape];
     const ShapePose& stands = pose_.shapes[surface.shape];
-    const MeshGroup& group = scene_.meshes[shape.mesh].groups[surface.group];
+    const MeshGroup& group = shapes_.meshes[shape.mesh].groups[surface.group];
     row_ = {row,
             group.normal_corners,
             group.triangles,

@@ -11,7 +11,7 @@
 namespace kinora {
 
 struct Pose;
-struct Scene;
+struct SceneShapes;
 
 // The cosine between facet and light above which a facet is not left.
 inline constexpr float kSeesLight = 0.1f;
@@ -21,7 +21,7 @@ inline constexpr float kSeesLight = 0.1f;
 // the Shadow Terminator, Ray Tracing Gems II, 2021).
 class SmoothSurface {
   public:
-    SmoothSurface(const Scene& scene, const Pose& pose) : scene_(scene), pose_(pose) {}
+    SmoothSurface(const SceneShapes& shapes, const Pose& pose) : shapes_(shapes), pose_(pose) {}
     // From a hit to that surface; accel space. 0 where the facet sees the light or is shaded on
     // both accounts, where it is flat, and where the surface is hollow.
     vec3 way_from(const raytrace::HitBatch& hits, uint32_t hit, vec3 to_light);
@@ -40,7 +40,7 @@ class SmoothSurface {
     void enter(uint32_t row);
     const uint32_t* corners(uint32_t primitive) const;
 
-    const Scene& scene_;
+    const SceneShapes& shapes_;
     const Pose& pose_;
     Row row_;
 };

@@ -5,6 +5,7 @@
 
 #include "runtime/scene/build/shapes/pose_at.h"
 #include "runtime/scene/camera.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/values.h"
 #include "runtime/scene/vertices/dice_error.h"
 
@@ -93,7 +94,7 @@ double DiceViews::coarsest_time(double from, double to) {
     for (int k = 1; k < kBetween; ++k) {
         double time = from + (to - from) * (double(k) / kBetween);
         evaluate_anew(scene_, scene_.start, time);
-        double error = set_dice_view() ? dice_error(scene_, scene_.start) : 0;
+        double error = set_dice_view() ? dice_error(*scene_.description, scene_, scene_.start) : 0;
         if (!(error > most)) continue;
         most = error;
         result = time;

@@ -12,6 +12,8 @@
 
 namespace kinora {
 
+struct Scene;
+
 // A camera, and where the base mesh's vertices are for it.
 struct DiceView {
     raytrace::Camera camera;

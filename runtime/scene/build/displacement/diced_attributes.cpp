@@ -2,6 +2,7 @@
 // diced.
 #include "runtime/scene/build/displacement/diced_attributes.h"
 
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
@@ -62,32 +63,34 @@ void rebind(std::span<const VaryingParam> params, const PrimitiveGroup& old,
 
 // Calls f(surface, group) for each surface of each shape of the mesh.
 template <class F>
-void for_each_surface(Scene& scene, const DisplacedMesh& mesh, F&& f) {
+void for_each_surface(SceneShapes& scene, const DisplacedMesh& mesh, F&& f) {
     for (const auto& surfaces : mesh.surfaces)
         for (size_t g = 0; g < surfaces.size(); ++g) f(scene.surfaces[surfaces[g]], g);
 }
 
 }  // namespace
 
-void bind_diced_attributes(Scene& scene, const DisplacedMesh& mesh, DicedMesh& made) {
+void bind_diced_attributes(SceneShapes& shapes, const SceneShaders& shaders,
+                           const DisplacedMesh& mesh, DicedMesh& made) {
     // All are added before any is pointed at.
-    for_each_surface(scene, mesh, [&](Surface& surface, size_t g) {
+    for_each_surface(shapes, mesh, [&](Surface& surface, size_t g) {
         PrimitiveGroup& group = *made.mesh.own_groups[g];
-        add_attributes(scene.shader_instances[surface.look]->varying, made.mesh, made.groups[g],
+        add_attributes(shaders.shader_instances[surface.look]->varying, made.mesh, made.groups[g],
                        group);
         for (const VertexUse* use : {&surface.transformation, &surface.displacement})
             if (use->instance != kNone)
-                add_attributes(scene.vertex_instances[use->instance]->varying, made.mesh,
+                add_attributes(shaders.vertex_instances[use->instance]->varying, made.mesh,
                                made.groups[g], group);
     });
-    for_each_surface(scene, mesh, [&](Surface& surface, size_t g) {
+    for_each_surface(shapes, mesh, [&](Surface& surface, size_t g) {
         const PrimitiveGroup& old = *mesh.base.groups[g].definition;
         const PrimitiveGroup& group = *made.mesh.own_groups[g];
         surface.st = diced_attribute(surface.st, "TEXCOORD", old, group);
-        rebind(scene.shader_instances[surface.look]->varying, old, group, surface.varying);
+        surface.uv = diced_attribute(surface.uv, kSurfaceParameters, old, group);
+        rebind(shaders.shader_instances[surface.look]->varying, old, group, surface.varying);
         for (VertexUse* use : {&surface.transformation, &surface.displacement})
             if (use->instance != kNone)
-                rebind(scene.vertex_instances[use->instance]->varying, old, group, use->varying);
+                rebind(shaders.vertex_instances[use->instance]->varying, old, group, use->varying);
     });
 }
 

@@ -7,8 +7,11 @@
 
 namespace kinora {
 
+struct SceneShaders;
+
 // Gives the diced mesh the attributes that shader instances want beyond those of the file, and
 // makes the vertex inputs of the surfaces (Scene::surfaces: st, varying) those of the diced mesh.
-void bind_diced_attributes(Scene& scene, const DisplacedMesh& mesh, DicedMesh& made);
+void bind_diced_attributes(SceneShapes& shapes, const SceneShaders& shaders,
+                           const DisplacedMesh& mesh, DicedMesh& made);
 
 }  // namespace kinora

@@ -6,6 +6,7 @@
 #include "runtime/scene/build/displacement/diced_attributes.h"
 #include "runtime/scene/build/shapes/shapes.h"
 #include "runtime/scene/build/shapes/skins.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/vertices/vertex_work.h"
 
 namespace kinora {
@@ -78,7 +79,7 @@ void number_outputs(Scene& scene, const Mesh& mesh) {
 
 void put_on_shapes(Scene& scene, const DisplacedMesh& from, DicedMesh& made, const MeshUse& use,
                    WatchedEdges* watched, Diagnostics& diagnostics) {
-    bind_diced_attributes(scene, from, made);
+    bind_diced_attributes(scene, scene, from, made);
     bool instanced = from.shapes.size() > 1 && made.triangles() > kBakedTriangles;
     bool once = !from.deforms && !from.each_frame;
     Mesh& mesh = made.mesh;
@@ -117,7 +118,8 @@ void put_on_shapes(Scene& scene, const DisplacedMesh& from, DicedMesh& made, con
         work->each_frame = from.each_frame;
         first.vertex_work = std::move(work);
     }
-    for (uint32_t h : from.shapes) size_shape(scene, scene.shapes[h], scene.start.shapes[h]);
+    for (uint32_t h : from.shapes)
+        size_shape(scene, scene.meshes[index], scene.shapes[h], scene.start.shapes[h]);
 }
 
 }  // namespace kinora

@@ -7,6 +7,8 @@
 
 namespace kinora {
 
+struct Scene;
+
 // Puts a diced mesh on its shapes, and moves its vertices or readies them to be moved at each
 // frame. Takes the mesh over into Scene::meshes, adds to Scene::morphs, changes the shapes and
 // their surfaces' vertex inputs. `watched` (null: nothing of it was diced) gets what deforms it.

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "runtime/scene/pose.h"
+#include "runtime/scene/scene_options.h"
+
 namespace kinora {
 
 namespace {
@@ -94,7 +97,8 @@ std::optional<DicedParts> Dicing::dice_one(size_t mesh, double pixels, size_t li
     return dice_parts(base, meshes_[mesh].diced, longer, limit);
 }
 
-std::vector<std::unique_ptr<WatchedEdges>> Dicing::watch_edges(const Scene& scene) const {
+std::vector<std::unique_ptr<WatchedEdges>> Dicing::watch_edges(const SceneShapes& scene,
+                                                               const Pose& start) const {
     std::vector<std::unique_ptr<WatchedEdges>> result(meshes_.size());
     size_t triangles = 0;
     for (size_t m = 0; m < meshes_.size(); ++m)
@@ -106,7 +110,7 @@ std::vector<std::unique_ptr<WatchedEdges>> Dicing::watch_edges(const Scene& scen
         auto watched = std::make_unique<WatchedEdges>();
         watched->shapes = mesh.shapes;
         watched->anchor = mesh.base.anchor;
-        dmat3 world(scene.start.nodes[first.node].world * first.conversion);
+        dmat3 world(start.nodes[first.node].world * first.conversion);
         choose_edges(mesh.base, made_[m], mesh.diced, world, mesh.deforms, triangles, *watched);
         result[m] = std::move(watched);
     }

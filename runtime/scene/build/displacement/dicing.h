@@ -13,6 +13,9 @@
 
 namespace kinora {
 
+struct Pose;
+struct SceneOptions;
+
 class Dicing {
   public:
     // `meshes` and `views` must stay. Once `stop` (null: never) is true the result is coarse.
@@ -29,7 +32,8 @@ class Dicing {
 
     // Edges of what was diced, by mesh (null: nothing of it was), so that a frame can tell whether
     // they are short enough for it.
-    std::vector<std::unique_ptr<WatchedEdges>> watch_edges(const Scene& scene) const;
+    std::vector<std::unique_ptr<WatchedEdges>> watch_edges(const SceneShapes& scene,
+                                                           const Pose& start) const;
 
   private:
     bool stopped() const { return stop_ && *stop_; }

@@ -5,6 +5,8 @@
 #include <map>
 
 #include "runtime/scene/build/shapes/mesh.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/shader_instance.h"
 #include "runtime/scene/vertices/vertex_work.h"
 
@@ -21,12 +23,13 @@ struct Found {
     bool by_node = false;  // and its result depends on the shape's node
 };
 
-Found examine(const Scene& scene, uint32_t index, std::span<const uint32_t> surfaces) {
-    const Shape& shape = scene.shapes[index];
+Found examine(const SceneNodes& nodes, const SceneShapes& shapes, const SceneShaders& shaders,
+              uint32_t index, std::span<const uint32_t> surfaces) {
+    const Shape& shape = shapes.shapes[index];
     Found found;
     found.key = {shape.mesh};
     for (uint32_t s : surfaces) {
-        const Surface& surface = scene.surfaces[s];
+        const Surface& surface = shapes.surfaces[s];
         found.mesh.diced.push_back(surface.displacement.instance != kNone);
         found.mesh.moved.push_back(surface.displacement.instance != kNone ||
                                    surface.transformation.instance != kNone);
@@ -35,9 +38,9 @@ Found examine(const Scene& scene, uint32_t index, std::span<const uint32_t> surf
             found.key.push_back(use->instance);
             for (const VertexAttribute* a : use->varying) found.key.push_back(uintptr_t(a));
             if (use->instance == kNone) continue;
-            const ShaderInstance& instance = *scene.vertex_instances[use->instance];
+            const ShaderInstance& instance = *shaders.vertex_instances[use->instance];
             found.any = true;
-            found.mesh.each_frame |= runs_each_frame(instance, scene, shape.node);
+            found.mesh.each_frame |= runs_each_frame(instance, nodes, shape.node);
             found.by_node |= depends_on_node(instance);
         }
     }
@@ -53,28 +56,29 @@ bool DisplacedMesh::any_diced() const {
     return std::find(diced.begin(), diced.end(), 1) != diced.end();
 }
 
-std::vector<DisplacedMesh> find_displaced(const Scene& scene) {
-    std::vector<std::vector<uint32_t>> surfaces(scene.shapes.size());
-    for (uint32_t s = 0; s < scene.surfaces.size(); ++s)
-        surfaces[scene.surfaces[s].shape].push_back(s);
+std::vector<DisplacedMesh> find_displaced(const SceneNodes& nodes, const SceneShapes& shapes,
+                                          const SceneShaders& shaders) {
+    std::vector<std::vector<uint32_t>> surfaces(shapes.shapes.size());
+    for (uint32_t s = 0; s < shapes.surfaces.size(); ++s)
+        surfaces[shapes.surfaces[s].shape].push_back(s);
     std::vector<DisplacedMesh> result;
     std::map<Key, size_t> known;
-    for (uint32_t h = 0; h < scene.shapes.size(); ++h) {
-        Found found = examine(scene, h, surfaces[h]);
+    for (uint32_t h = 0; h < shapes.shapes.size(); ++h) {
+        Found found = examine(nodes, shapes, shaders, h, surfaces[h]);
         if (!found.any) continue;
-        const Shape& shape = scene.shapes[h];
+        const Shape& shape = shapes.shapes[h];
         bool own = found.mesh.deforms || found.mesh.each_frame || found.by_node;
         if (!own) {
             auto [entry, is_new] = known.try_emplace(found.key, result.size());
             DisplacedMesh* first = is_new ? nullptr : &result[entry->second];
-            if (first && scene.shapes[first->shapes[0]].conversion == shape.conversion) {
+            if (first && shapes.shapes[first->shapes[0]].conversion == shape.conversion) {
                 first->shapes.push_back(h);
                 first->surfaces.push_back(surfaces[h]);
                 continue;
             }
         }
-        uint32_t definition = scene.meshes[shape.mesh].definition;
-        found.mesh.base = build_mesh(scene.description->meshes[definition], true);
+        uint32_t definition = shapes.meshes[shape.mesh].definition;
+        found.mesh.base = build_mesh(nodes.description->meshes[definition], true);
         found.mesh.base.definition = definition;
         result.push_back(std::move(found.mesh));
     }

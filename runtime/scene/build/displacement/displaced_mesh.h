@@ -3,9 +3,12 @@
 
 #include <vector>
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
+
+struct SceneNodes;
+struct SceneShaders;
 
 // Shapes that share one displaced mesh: several only where it is displaced once and alike.
 struct DisplacedMesh {
@@ -20,6 +23,7 @@ struct DisplacedMesh {
 };
 
 // Of shapes whose surfaces have their instances.
-std::vector<DisplacedMesh> find_displaced(const Scene& scene);
+std::vector<DisplacedMesh> find_displaced(const SceneNodes& nodes, const SceneShapes& shapes,
+                                          const SceneShaders& shaders);
 
 }  // namespace kinora

@@ -9,6 +9,7 @@
 #include "runtime/scene/build/displacement/dicing.h"
 #include "runtime/scene/build/shapes/pose_at.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/vertices/deform.h"
 
 namespace kinora {
@@ -22,7 +23,7 @@ std::vector<WatchedEdges*> dice(Scene& scene, Dicing& dicing) {
     scene.watched.clear();
     scene.start.watched.clear();
     std::vector<WatchedEdges*> by_mesh;
-    for (std::unique_ptr<WatchedEdges>& edges : dicing.watch_edges(scene)) {
+    for (std::unique_ptr<WatchedEdges>& edges : dicing.watch_edges(scene, scene.start)) {
         by_mesh.push_back(edges.get());
         if (!edges) continue;
         scene.watched.push_back(std::move(edges));
@@ -45,7 +46,7 @@ void report_limit(const Scene& scene, bool again, Diagnostics& diagnostics) {
 
 void displace(Scene& scene, std::span<const SurfaceUse> uses, const CloserView* closer,
               const std::atomic<bool>* stop, Diagnostics& diagnostics) {
-    std::vector<DisplacedMesh> meshes = find_displaced(scene);
+    std::vector<DisplacedMesh> meshes = find_displaced(scene, scene, scene);
     if (meshes.empty()) return;
     Stopwatch watch;
     DiceViews views(scene, meshes);

@@ -4,11 +4,13 @@
 #include <atomic>
 #include <span>
 
+#include "runtime/base/diagnostic.h"
 #include "runtime/scene/build/displacement/closer_view.h"
 #include "runtime/scene/build/shapes/surface_use.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Scene;
 
 // Dices meshes whose shaders move vertices, and moves these, once or ready to be at each frame.
 // Writes Scene::dice and watched, and the meshes, morphs and shapes that are displaced. `closer`:

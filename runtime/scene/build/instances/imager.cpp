@@ -10,25 +10,28 @@ namespace kinora {
 
 namespace {
 
-const std::vector<ShaderUse>& own_imagers(const Scene& scene) {
-    return scene.description->cameras[scene.cameras[scene.start.camera].definition].picture.imagers;
+const std::vector<ShaderUse>& own_imagers(const SceneDescription& description,
+                                          const CameraSource& camera) {
+    return description.cameras[camera.definition].picture.imagers;
 }
 
 }  // namespace
 
-const std::vector<ShaderUse>& imagers_of(const Scene& scene) {
-    const std::vector<ShaderUse>& own = own_imagers(scene);
-    return own.empty() ? scene.description->picture.imagers : own;
+const std::vector<ShaderUse>& imagers_of(const SceneDescription& description,
+                                         const CameraSource& camera) {
+    const std::vector<ShaderUse>& own = own_imagers(description, camera);
+    return own.empty() ? description.picture.imagers : own;
 }
 
-void add_imager(Scene& scene, std::span<const std::string> outputs) {
-    const std::vector<ShaderUse>& layers = imagers_of(scene);
+void add_imager(const SceneDescription& description, const CameraSource& camera,
+                SceneShaders& scene, std::span<const std::string> outputs) {
+    const std::vector<ShaderUse>& layers = imagers_of(description, camera);
     if (layers.empty()) return;
     auto instance = std::make_unique<ShaderInstance>();
     instance->kind = ShaderInstanceKind::Imager;
     instance->name = "imager";
     instance->layers = layers;
-    instance->node = own_imagers(scene).empty() ? kNone : scene.cameras[scene.start.camera].node;
+    instance->node = own_imagers(description, camera).empty() ? kNone : camera.node;
     for (uint32_t l = 0; l < layers.size(); ++l)
         for (const rsl::ShaderParameter& p : layers[l].shader->parameters) {
             if (std::ranges::find(outputs, p.name) == outputs.end()) continue;

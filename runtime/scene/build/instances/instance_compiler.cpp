@@ -3,7 +3,7 @@
 
 namespace kinora {
 
-InstanceCompiler::InstanceCompiler(Scene& scene, Diagnostics& diagnostics)
+InstanceCompiler::InstanceCompiler(SceneResources& scene, Diagnostics& diagnostics)
     : scene_(scene), diagnostics_(diagnostics) {
     for (const NodeDefinition& node : scene.description->nodes)
         if (!node.id.empty()) space_names_.push_back(node.id);

@@ -6,7 +6,7 @@
 
 #include "runtime/scene/build/instances/compile_instance.h"
 #include "runtime/scene/build/instances/compiled_layers.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/resources.h"
 
 namespace kinora {
 
@@ -15,14 +15,14 @@ namespace kinora {
 class InstanceCompiler {
   public:
     // The scene has all its nodes.
-    InstanceCompiler(Scene& scene, Diagnostics& diagnostics);
+    InstanceCompiler(SceneResources& scene, Diagnostics& diagnostics);
 
     // `wanted` has what holds for instances of its kind: light_messages, aovs, gathered. False when
     // a shader cannot be compiled; it has been reported.
     bool compile(ShaderInstance& instance, ShaderInstanceOptions wanted = {});
 
   private:
-    Scene& scene_;
+    SceneResources& scene_;
     Diagnostics& diagnostics_;
     std::vector<std::string> space_names_;
     KnownLayers known_;

@@ -7,6 +7,7 @@
 #include "runtime/scene/build/instances/light_instances.h"
 #include "runtime/scene/build/instances/output_planes.h"
 #include "runtime/scene/build/instances/surface_instances.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -17,7 +18,7 @@ void add_once(std::vector<std::string>& names, const std::string& name) {
 }
 
 // Outputs that gather statements read of what they hit.
-std::vector<std::string> gathered_outputs(const Scene& scene) {
+std::vector<std::string> gathered_outputs(const SceneShaders& scene) {
     std::vector<std::string> result;
     for (const auto& instance : scene.shader_instances)
         for (const ShaderUse& layer : instance->layers)
@@ -27,7 +28,7 @@ std::vector<std::string> gathered_outputs(const Scene& scene) {
 }
 
 // Light parameters that surfaces read.
-std::vector<std::string> light_messages(const Scene& scene) {
+std::vector<std::string> light_messages(const SceneShaders& scene) {
     std::vector<std::string> messages;
     for (const auto& instance : scene.shader_instances)
         for (const std::string& message : instance->lowered.light_messages)
@@ -36,7 +37,8 @@ std::vector<std::string> light_messages(const Scene& scene) {
 }
 
 // Those that are not lights.
-bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompiler& compiler) {
+bool compile_instances(SceneShaders& scene, const OutputPlanes& outputs,
+                       InstanceCompiler& compiler) {
     ShaderInstanceOptions of_surfaces;
     of_surfaces.aovs = outputs.parameters();
     of_surfaces.gathered = gathered_outputs(scene);
@@ -51,27 +53,37 @@ bool compile_instances(Scene& scene, const OutputPlanes& outputs, InstanceCompil
     return ok;
 }
 
+bool add_lights(Scene& scene, InstanceCompiler& compiler) {
+    SceneShaders& shaders = scene;
+    return add_light_instances(scene, scene, shaders, scene.start, compiler,
+                               light_messages(shaders));
+}
+
 }  // namespace
 
 bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& diagnostics) {
+    const SceneDescription& description = *scene.description;
+    const CameraSource& camera = scene.cameras[scene.start.camera];
+    SceneShapes& shapes = scene;
+    SceneShaders& shaders = scene;
     InstanceCompiler compiler(scene, diagnostics);
-    VertexInstances vertices(scene, compiler);
-    VolumeInstances volumes(scene, diagnostics);
-    SurfaceInstances surfaces(scene, vertices, volumes, diagnostics);
-    for (size_t s = 0; s < scene.surfaces.size(); ++s) surfaces.add(scene.surfaces[s], uses[s]);
-    add_atmosphere(scene);
-    OutputPlanes outputs(scene, diagnostics);
-    add_imager(scene, outputs.parameters());
-    bool compiled = compile_instances(scene, outputs, compiler);
-    bool lit = add_light_instances(scene, compiler, light_messages(scene));
-    for (size_t l = 0; l < scene.shader_instances.size(); ++l)
-        scene.shader_instances[l]->index = uint32_t(l);
+    VertexInstances vertices(description, shapes, shaders, compiler);
+    VolumeInstances volumes(description, shapes, shaders, diagnostics);
+    SurfaceInstances surfaces(scene, shapes, shaders, vertices, volumes, diagnostics);
+    for (size_t s = 0; s < shapes.surfaces.size(); ++s) surfaces.add(shapes.surfaces[s], uses[s]);
+    add_atmosphere(description, camera, shaders);
+    OutputPlanes outputs(shaders, scene.options.aovs, imagers_of(description, camera), diagnostics);
+    add_imager(description, camera, shaders, outputs.parameters());
+    bool compiled = compile_instances(shaders, outputs, compiler);
+    bool lit = add_lights(scene, compiler);
+    for (size_t l = 0; l < shaders.shader_instances.size(); ++l)
+        shaders.shader_instances[l]->index = uint32_t(l);
     return vertices.all_compiled() && compiled && lit;
 }
 
 bool add_light_instances(Scene& scene, Diagnostics& diagnostics) {
     InstanceCompiler compiler(scene, diagnostics);
-    return add_light_instances(scene, compiler, light_messages(scene));
+    return add_lights(scene, compiler);
 }
 
 }  // namespace kinora

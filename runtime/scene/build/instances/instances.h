@@ -3,10 +3,12 @@
 
 #include <span>
 
+#include "runtime/base/diagnostic.h"
 #include "runtime/scene/build/shapes/surface_use.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
+
+struct Scene;
 
 // Instances of all that the scene's surfaces, lights, volumes and camera have shaders for, lowered
 // and compiled. Writes Scene::looks, vertex_instances, volumes, atmosphere, imager and outputs, and

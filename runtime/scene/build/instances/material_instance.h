@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "rsl/model/kernel_keys.h"
-#include "runtime/scene/build/instances/imager.h"
 #include "runtime/scene/description/findings.h"
 
 namespace kinora {
@@ -43,7 +42,7 @@ std::optional<rsl::Type> find_output(const ShaderInstance& instance, std::string
 }
 
 // Of the first surface that has one.
-std::optional<rsl::Type> find_output(const Scene& scene, std::string_view name) {
+std::optional<rsl::Type> find_output(const SceneShaders& scene, std::string_view name) {
     for (const auto& instance : scene.shader_instances)
         if (instance->kind == ShaderInstanceKind::Surface)
             if (std::optional<rsl::Type> found = find_output(*instance, name)) return found;
@@ -52,10 +51,12 @@ std::optional<rsl::Type> find_output(const Scene& scene, std::string_view name) 
 
 }  // namespace
 
-OutputPlanes::OutputPlanes(Scene& scene, Diagnostics& diagnostics) : scene_(scene) {
-    for (const std::string& name : scene.options.aovs)
+OutputPlanes::OutputPlanes(SceneShaders& scene, std::span<const std::string> wanted,
+                           std::span<const ShaderUse> imagers, Diagnostics& diagnostics)
+    : scene_(scene) {
+    for (const std::string& name : wanted)
         if (!add(name, true)) diagnostics.report(Code::AOV_UNKNOWN, Location{}, name);
-    for (const ShaderUse& use : imagers_of(scene))
+    for (const ShaderUse& use : imagers)
         for (const rsl::ShaderParameter& p : use.shader->parameters)
             if (!p.type.is_array() && p.type.base != rsl::BaseType::String)
                 add(std::string(p.name), false);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {
@@ -13,9 +13,10 @@ namespace kinora {
 // Writes Scene::outputs.
 class OutputPlanes {
   public:
-    // Planes that the options want, then those that the imager has parameters of. The scene has the
+    // Planes that are wanted, then those that the imagers have parameters of. The scene has the
     // instances of its surfaces.
-    OutputPlanes(Scene& scene, Diagnostics& diagnostics);
+    OutputPlanes(SceneShaders& scene, std::span<const std::string> wanted,
+                 std::span<const ShaderUse> imagers, Diagnostics& diagnostics);
 
     // The output parameters behind the planes.
     const std::vector<std::string>& parameters() const { return parameters_; }
@@ -23,7 +24,7 @@ class OutputPlanes {
   private:
     bool add(const std::string& parameter, bool in_file);
 
-    Scene& scene_;
+    SceneShaders& scene_;
     std::vector<std::string> parameters_;
 };
 

@@ -11,20 +11,26 @@
 
 namespace kinora {
 
-SurfaceInstances::SurfaceInstances(Scene& scene, VertexInstances& vertices,
+SurfaceInstances::SurfaceInstances(const SceneResources& resources, const SceneShapes& shapes,
+                                   SceneShaders& scene, VertexInstances& vertices,
                                    VolumeInstances& volumes, Diagnostics& diagnostics)
-    : scene_(scene), vertices_(vertices), volumes_(volumes), diagnostics_(diagnostics) {}
+    : resources_(resources),
+      shapes_(shapes),
+      scene_(scene),
+      vertices_(vertices),
+      volumes_(volumes),
+      diagnostics_(diagnostics) {}
 
 void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
-    const SceneDescription& description = *scene_.description;
+    const SceneDescription& description = *resources_.description;
     const MaterialUse* use = surface_use.material;
     surface.material = use ? use->material : kNone;
     const MaterialDefinition& material =
         surface.material != kNone ? description.materials[surface.material] : default_material();
     vertices_.add(ShaderInstanceKind::Transformation, surface, use, material);
-    if (scene_.options.quality.displacement != DisplacementMode::Bump)
+    if (resources_.options.quality.displacement != DisplacementMode::Bump)
         vertices_.add(ShaderInstanceKind::Displacement, surface, use, material);
-    const Shape& shape = scene_.shapes[surface.shape];
+    const Shape& shape = shapes_.shapes[surface.shape];
     bool moved = surface.displacement.instance != kNone;
     std::vector<ShaderUse> displacements = displacements_of(material);
     // A class's displacement() that did not run on the vertices runs in its surface.
@@ -36,7 +42,7 @@ void SurfaceInstances::add(Surface& surface, const SurfaceUse& surface_use) {
     instance.lights = surface_use.mesh->lights;
     if (instance.lights) made.key += fmt::format("|lights {}", fmt::join(*instance.lights, ","));
     if (moved) instance.done_layers = uint32_t(displacements.size());
-    const PrimitiveGroup& group = *scene_.meshes[shape.mesh].groups[surface.group].definition;
+    const PrimitiveGroup& group = *shapes_.meshes[shape.mesh].groups[surface.group].definition;
     VertexInputs inputs = find_vertex_inputs(group, use, instance.layers);
     add_displaced_inputs(instance.layers, instance.done_layers, inputs);
     surface.st = inputs.st;
@@ -55,12 +61,12 @@ uint32_t SurfaceInstances::find_or_add(KeyedInstance made) {
 
 const MaterialDefinition& SurfaceInstances::default_material() {
     if (!default_material_.surfaces.empty()) return default_material_;
-    const auto& own = scene_.description->default_surface;
+    const auto& own = resources_.description->default_surface;
     default_material_.name = "default";
     ShaderUse use;
     use.shader = own ? own : library_shader("default_surface");
     use.linear_inputs = !own;
-    use.untinted = !own && !scene_.description->tints;
+    use.untinted = !own && !resources_.description->tints;
     default_material_.surfaces.push_back(std::move(use));
     return default_material_;
 }

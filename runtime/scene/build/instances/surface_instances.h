@@ -7,14 +7,14 @@
 #include "runtime/scene/build/instances/vertex_instances.h"
 #include "runtime/scene/build/instances/volumes.h"
 #include "runtime/scene/build/shapes/surface_use.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
 // Writes Scene::looks; they are not compiled yet.
 class SurfaceInstances {
   public:
-    SurfaceInstances(Scene& scene, VertexInstances& vertices, VolumeInstances& volumes,
+    SurfaceInstances(const SceneResources& resources, const SceneShapes& shapes,
+                     SceneShaders& scene, VertexInstances& vertices, VolumeInstances& volumes,
                      Diagnostics& diagnostics);
 
     // Sets all that the surface has of its material: st, varying inputs and instances.
@@ -27,7 +27,9 @@ class SurfaceInstances {
                                          const MaterialDefinition& material);
     uint32_t find_or_add(KeyedInstance made);
 
-    Scene& scene_;
+    const SceneResources& resources_;
+    const SceneShapes& shapes_;
+    SceneShaders& scene_;
     VertexInstances& vertices_;
     VolumeInstances& volumes_;
     Diagnostics& diagnostics_;

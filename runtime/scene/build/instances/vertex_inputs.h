@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {

@@ -12,10 +12,9 @@ void VertexInstances::add(ShaderInstanceKind kind, Surface& surface, const Mater
     std::vector<ShaderUse> layers =
         displacement ? displacements_of(material) : material.transformations;
     if (layers.empty()) return;
-    const Shape& shape = scene_.shapes[surface.shape];
-    const PrimitiveGroup& group = *scene_.meshes[shape.mesh].groups[surface.group].definition;
-    KeyedInstance made =
-        begin_instance(*scene_.description, kind, material, layers, use, shape.node);
+    const Shape& shape = shapes_.shapes[surface.shape];
+    const PrimitiveGroup& group = *shapes_.meshes[shape.mesh].groups[surface.group].definition;
+    KeyedInstance made = begin_instance(description_, kind, material, layers, use, shape.node);
     VertexInputs inputs = find_vertex_inputs(group, use, made.instance->layers);
     surface.st = inputs.st;
     made.instance->varying = std::move(inputs.varying);

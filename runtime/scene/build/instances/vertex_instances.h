@@ -6,15 +6,17 @@
 
 #include "runtime/scene/build/instances/instance_compiler.h"
 #include "runtime/scene/build/instances/material_instance.h"
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shaders.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 
 // Writes Scene::vertex_instances.
 class VertexInstances {
   public:
-    VertexInstances(Scene& scene, InstanceCompiler& compiler)
-        : scene_(scene), compiler_(compiler) {}
+    VertexInstances(const SceneDescription& description, const SceneShapes& shapes,
+                    SceneShaders& scene, InstanceCompiler& compiler)
+        : description_(description), shapes_(shapes), scene_(scene), compiler_(compiler) {}
 
     // The instance of a material's transformations, or of its displacements, compiled, for a
     // surface: none where the material has none, or where displacements leave P alone (then N is
@@ -27,7 +29,9 @@ class VertexInstances {
   private:
     uint32_t find_or_compile(KeyedInstance made);
 
-    Scene& scene_;
+    const SceneDescription& description_;
+    const SceneShapes& shapes_;
+    SceneShaders& scene_;
     InstanceCompiler& compiler_;
     std::map<std::string, uint32_t> by_key_;  // kNone: it leaves P alone
     bool all_compiled_ = true;

@@ -27,7 +27,7 @@ std::unique_ptr<ShaderInstance> volume_instance(std::string name,
 
 void VolumeInstances::add(Surface& surface, const MaterialDefinition& material,
                           const MaterialUse* use) {
-    uint32_t node = scene_.shapes[surface.shape].node;
+    uint32_t node = shapes_.shapes[surface.shape].node;
     const std::string& name = material.id.empty() ? material.name : material.id;
     if (!material.interior.empty())
         surface.interior = add_volume(material.interior, name, node, use, false);
@@ -41,7 +41,7 @@ uint32_t VolumeInstances::add_volume(const std::vector<ShaderUse>& layers, const
                                      uint32_t node, const MaterialUse* use, bool exterior) {
     auto instance = volume_instance(name, layers, node);
     std::string key = fmt::format("{} {}", static_cast<const void*>(layers.data()), node);
-    apply_binds(*scene_.description, use, instance->layers, key);
+    apply_binds(description_, use, instance->layers, key);
     auto [entry, is_new] = by_key_.try_emplace(key, uint32_t(scene_.shader_instances.size()));
     if (!is_new) return entry->second;
     if (scene_.volumes.size() == kMaxVolumes) {
@@ -55,9 +55,8 @@ uint32_t VolumeInstances::add_volume(const std::vector<ShaderUse>& layers, const
     return entry->second;
 }
 
-void add_atmosphere(Scene& scene) {
-    const SceneDescription& description = *scene.description;
-    const CameraSource& camera = scene.cameras[scene.start.camera];
+void add_atmosphere(const SceneDescription& description, const CameraSource& camera,
+                    SceneShaders& scene) {
     const auto& own = description.cameras[camera.definition].picture.atmosphere;
     const auto& layers = own.empty() ? description.picture.atmosphere : own;
     if (layers.empty()) return;

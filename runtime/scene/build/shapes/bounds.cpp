@@ -8,6 +8,7 @@
 
 #include "runtime/scene/build/shapes/pose_at.h"
 #include "runtime/scene/build/shapes/shown_vertices.h"
+#include "runtime/scene/scene.h"
 #include "runtime/scene/vertices/deform.h"
 
 namespace kinora {
@@ -63,7 +64,7 @@ dvec3 origin_within(const Scene& scene, const Bounds& bounds) {
         return has_triangles(mesh) && kWide * glm::length(dvec3(mesh.high - mesh.low)) < size;
     });
     if (!any_small) return centre;
-    ShownVertices vertices(scene);
+    ShownVertices vertices(scene, scene.start);
     dvec3 nearest = centre;
     for (uint32_t h = 0; h < scene.shapes.size(); ++h) {
         Bounds shape;
@@ -126,7 +127,7 @@ bool takes_parts(const SceneDescription& description) {
            std::ranges::any_of(description.nodes, &NodeDefinition::hidden);
 }
 
-std::vector<double> played_times(const Scene& scene, int most) {
+std::vector<double> played_times(const SceneResources& scene, int most) {
     const SceneOptions& options = scene.options;
     double length = options.end_time - options.start_time;
     if (scene.description->animation.channels.empty() || !(length > 0)) return {options.start_time};

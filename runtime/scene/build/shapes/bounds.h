@@ -3,9 +3,13 @@
 
 #include <vector>
 
-#include "runtime/scene/scene.h"
+#include "runtime/base/math.h"
 
 namespace kinora {
+
+struct Scene;
+struct SceneDescription;
+struct SceneResources;
 
 struct Bounds {
     dvec3 low{1e300}, high{-1e300};
@@ -26,6 +30,6 @@ bool takes_parts(const SceneDescription& description);
 // Times that stand for the range played (which no choice of frames changes), seconds: so many from
 // its start to its end; one where nothing moves.
 inline constexpr int kPlayedTimes = 13;
-std::vector<double> played_times(const Scene& scene, int most = kPlayedTimes);
+std::vector<double> played_times(const SceneResources& scene, int most = kPlayedTimes);
 
 }  // namespace kinora

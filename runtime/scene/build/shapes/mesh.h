@@ -1,7 +1,7 @@
 // runtime/scene/build/shapes/mesh.h: a mesh as read to a mesh as rendered.
 #pragma once
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/shapes.h"
 
 namespace kinora {
 

@@ -63,8 +63,8 @@ skin::Morph build_morph(const SceneDescription& description, uint32_t morph, con
 
 }  // namespace
 
-void add_morph(Scene& scene, uint32_t morph, Shape& shape, Diagnostics& diagnostics) {
-    const SceneDescription& description = *scene.description;
+void add_morph(const SceneDescription& description, SceneShapes& scene, uint32_t morph,
+               Shape& shape, Diagnostics& diagnostics) {
     const Mesh& mesh = scene.meshes[shape.mesh];
     scene.morphs.resize(description.morphs.size());
     shape.morph_data = morph;

@@ -25,35 +25,35 @@ std::vector<bool> find_moving(const SceneDescription& description) {
 
 }  // namespace
 
-uint32_t add_node(Scene& scene, NodeDefinition definition, uint32_t parent) {
+uint32_t add_node(SceneNodes& scene, Pose& start, NodeDefinition definition, uint32_t parent) {
     SceneDescription& description = *scene.description;
-    take_added_values(scene);
+    take_added_values(description, start);
     uint32_t index = uint32_t(description.nodes.size());
     // Node bits come first among the owners: those behind move up by one word-safe step.
     for (anim::Channel& channel : description.animation.channels)
         if (channel.owner >= index) ++channel.owner;
     ++description.animation.owner_count;
-    scene.start.changed.resize(anim::changed_words(description.animation.owner_count), 0);
+    start.changed.resize(anim::changed_words(description.animation.owner_count), 0);
     Node node;
     node.definition = index;
     node.parent = parent;
     node.chosen = !description.only_chosen;
-    NodePose stands{.world = node_matrix(definition, scene.start.values)};
+    NodePose stands{.world = node_matrix(definition, start.values)};
     if (parent != kNone) {
         const Node& above = scene.nodes[parent];
         node.can_move = above.can_move;
         node.hidden = above.hidden;
         node.chosen = above.chosen;
-        stands.world = scene.start.nodes[parent].world * stands.world;
+        stands.world = start.nodes[parent].world * stands.world;
     }
     description.nodes.push_back(std::move(definition));
     scene.nodes.push_back(node);
-    scene.start.nodes.push_back(stands);
+    start.nodes.push_back(stands);
     return uint32_t(scene.nodes.size() - 1);
 }
 
-NodeTree::NodeTree(Scene& scene)
-    : scene_(scene), definition_moves_(find_moving(*scene.description)) {
+NodeTree::NodeTree(SceneNodes& scene, Pose& start)
+    : scene_(scene), start_(start), definition_moves_(find_moving(*scene.description)) {
     for (const ChildUse& root : scene.description->roots) unroll(root.node, kNone, root.conversion);
 }
 
@@ -74,16 +74,16 @@ void NodeTree::unroll(uint32_t definition, uint32_t parent, const dmat4& convers
     node.chosen = from.chosen || (above ? above->chosen : !description.only_chosen);
     uint32_t index = uint32_t(scene_.nodes.size());
     scene_.nodes.push_back(node);
-    scene_.start.nodes.emplace_back();
+    start_.nodes.emplace_back();
     first_occurrence_.try_emplace(definition, index);
     for (const ChildUse& child : from.children) unroll(child.node, index, child.conversion);
 }
 
 uint32_t NodeTree::add(NodeDefinition definition, uint32_t parent) {
-    uint32_t node = add_node(scene_, std::move(definition), parent);
+    uint32_t node = add_node(scene_, start_, std::move(definition), parent);
     definition_moves_.push_back(false);
     first_occurrence_.try_emplace(scene_.nodes[node].definition, node);
-    evaluate_anew(scene_, scene_.start, scene_.options.start_time);
+    evaluate_anew(scene_, start_, scene_.options.start_time);
     return node;
 }
 

@@ -5,19 +5,21 @@
 #include <span>
 #include <vector>
 
-#include "runtime/scene/scene.h"
+#include "runtime/scene/nodes.h"
+#include "runtime/scene/pose.h"
 
 namespace kinora {
 
 // Adds a node that no file wrote and that nothing moves but what is above it. It stands as its
 // parent does.
-uint32_t add_node(Scene& scene, NodeDefinition definition, uint32_t parent);
+uint32_t add_node(SceneNodes& scene, Pose& start, NodeDefinition definition, uint32_t parent);
 
-// Writes Scene::nodes. A definition that several nodes refer to occurs several times.
+// Writes Scene::nodes and those of Scene::start. A definition that several nodes refer to occurs
+// several times.
 class NodeTree {
   public:
     // Unrolls the description's roots. Matrices are not set: evaluate_anew.
-    explicit NodeTree(Scene& scene);
+    NodeTree(SceneNodes& scene, Pose& start);
 
     // A node that no file wrote; the scene stands at its start time afterwards.
     uint32_t add(NodeDefinition definition, uint32_t parent);
@@ -34,7 +36,8 @@ class NodeTree {
   private:
     void unroll(uint32_t definition, uint32_t parent, const dmat4& conversion);
 
-    Scene& scene_;
+    SceneNodes& scene_;
+    Pose& start_;
     std::vector<bool> definition_moves_;
     std::map<uint32_t, uint32_t> first_occurrence_;  // node by definition
 };

@@ -1,6 +1,7 @@
 // runtime/scene/build/shapes/pose_at.cpp: the pose of a scene under construction at a time.
 #include "runtime/scene/build/shapes/pose_at.h"
 
+#include "runtime/scene/scene.h"
 #include "runtime/scene/values.h"
 #include "runtime/scene/vertices/deform.h"
 

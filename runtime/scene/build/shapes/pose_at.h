@@ -2,9 +2,9 @@
 // time.
 #pragma once
 
-#include "runtime/scene/scene.h"
-
 namespace kinora {
+
+struct Scene;
 
 // Nodes, joints and vertices where they stand at that time, seconds.
 void pose_at(Scene& scene, double time);

@@ -49,11 +49,11 @@ std::span<const MeshUse> meshes_of(const SceneDescription& description, const No
 }
 
 // How often nodes use each mesh.
-std::vector<size_t> add_meshes(Scene& scene) {
-    SceneDescription& description = *scene.description;
+std::vector<size_t> add_meshes(const SceneNodes& nodes, SceneShapes& scene) {
+    SceneDescription& description = *nodes.description;
     std::vector<bool> deforms(description.meshes.size(), false);
     std::vector<size_t> uses(description.meshes.size(), 0);
-    for (const Node& node : scene.nodes)
+    for (const Node& node : nodes.nodes)
         for (const MeshUse& use : meshes_of(description, node)) {
             deforms[use.mesh] = deforms[use.mesh] || use.skin != kNone || use.morph != kNone;
             ++uses[use.mesh];
@@ -78,8 +78,8 @@ raytrace::GeometryKind kind_of(const MeshUse& use, const Node& node, const Mesh&
     return raytrace::GeometryKind::Static;
 }
 
-void add_shape(Scene& scene, const MeshUse& use, uint32_t node, size_t uses,
-               const SkinBinder& skins, Diagnostics& diagnostics) {
+void add_shape(const SceneNodes& nodes, SceneShapes& scene, Pose& start, const MeshUse& use,
+               uint32_t node, size_t uses, const SkinBinder& skins, Diagnostics& diagnostics) {
     const Mesh& mesh = scene.meshes[use.mesh];
     Shape& shape = scene.shapes.emplace_back();
     shape.mesh = use.mesh;
@@ -87,17 +87,17 @@ void add_shape(Scene& scene, const MeshUse& use, uint32_t node, size_t uses,
     shape.skin = use.skin;
     shape.morph = use.morph;
     shape.conversion = use.conversion;
-    shape.kind = kind_of(use, scene.nodes[node], mesh, uses);
-    if (use.morph != kNone) add_morph(scene, use.morph, shape, diagnostics);
-    if (shape.kind == raytrace::GeometryKind::Deforming) skins.bind(use, shape);
-    ShapePose& stands = scene.start.shapes.emplace_back();
-    size_shape(scene, shape, stands);
-    stands.world = scene.start.nodes[node].world * shape.conversion;
+    shape.kind = kind_of(use, nodes.nodes[node], mesh, uses);
+    if (use.morph != kNone) add_morph(*nodes.description, scene, use.morph, shape, diagnostics);
+    if (shape.kind == raytrace::GeometryKind::Deforming) skins.bind(use, mesh, shape);
+    ShapePose& stands = start.shapes.emplace_back();
+    size_shape(nodes, mesh, shape, stands);
+    stands.world = start.nodes[node].world * shape.conversion;
     stands.mirrored = glm::determinant(dmat3(stands.world)) < 0;
 }
 
 // Of the last shape: one a group of its mesh.
-void add_surfaces(Scene& scene, const MeshUse& use, std::vector<SurfaceUse>& surface_uses) {
+void add_surfaces(SceneShapes& scene, const MeshUse& use, std::vector<SurfaceUse>& surface_uses) {
     const Mesh& mesh = scene.meshes[use.mesh];
     for (uint32_t g = 0; g < mesh.groups.size(); ++g) {
         Surface surface;
@@ -113,19 +113,19 @@ void add_surfaces(Scene& scene, const MeshUse& use, std::vector<SurfaceUse>& sur
 
 }  // namespace
 
-std::vector<SurfaceUse> add_shapes(Scene& scene, const SkinBinder& skins,
-                                   Diagnostics& diagnostics) {
-    std::vector<size_t> uses = add_meshes(scene);
+std::vector<SurfaceUse> add_shapes(const SceneNodes& nodes, SceneShapes& scene, Pose& start,
+                                   const SkinBinder& skins, Diagnostics& diagnostics) {
+    std::vector<size_t> uses = add_meshes(nodes, scene);
     std::vector<SurfaceUse> surface_uses;
-    for (uint32_t n = 0; n < scene.nodes.size(); ++n)
-        for (const MeshUse& use : meshes_of(*scene.description, scene.nodes[n])) {
+    for (uint32_t n = 0; n < nodes.nodes.size(); ++n)
+        for (const MeshUse& use : meshes_of(*nodes.description, nodes.nodes[n])) {
             size_t groups = scene.meshes[use.mesh].groups.size();
             if (groups == 0) continue;
             if (scene.surfaces.size() + groups > kMostSurfaces) {
                 diagnostics.report(Code::SCENE_LIMIT, Location{}, kMostSurfaces);
                 return surface_uses;
             }
-            add_shape(scene, use, n, uses[use.mesh], skins, diagnostics);
+            add_shape(nodes, scene, start, use, n, uses[use.mesh], skins, diagnostics);
             add_surfaces(scene, use, surface_uses);
         }
     return surface_uses;

@@ -5,7 +5,6 @@
 
 #include "runtime/scene/build/shapes/skins.h"
 #include "runtime/scene/build/shapes/surface_use.h"
-#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -15,6 +14,7 @@ inline constexpr size_t kBakedTriangles = 200'000;
 
 // Writes Scene::meshes, morphs, shapes and surfaces; gives the description's use of each surface.
 // The description loses positions and triangles that nothing reads again.
-std::vector<SurfaceUse> add_shapes(Scene& scene, const SkinBinder& skins, Diagnostics& diagnostics);
+std::vector<SurfaceUse> add_shapes(const SceneNodes& nodes, SceneShapes& scene, Pose& start,
+                                   const SkinBinder& skins, Diagnostics& diagnostics);
 
 }  // namespace kinora

@@ -20,7 +20,8 @@ std::vector<uint32_t> used_positions(const Mesh& mesh) {
 
 }  // namespace
 
-ShownVertices::ShownVertices(const Scene& scene) : scene_(scene), used_(scene.meshes.size()) {
+ShownVertices::ShownVertices(const SceneShapes& scene, const Pose& pose)
+    : scene_(scene), pose_(pose), used_(scene.meshes.size()) {
     for (const Shape& shape : scene.shapes)
         if (used_[shape.mesh].empty()) used_[shape.mesh] = used_positions(scene.meshes[shape.mesh]);
 }
@@ -29,10 +30,10 @@ std::span<const dvec3> ShownVertices::of(uint32_t index) {
     const Shape& shape = scene_.shapes[index];
     const Mesh& mesh = scene_.meshes[shape.mesh];
     bool deforms = shape.kind == raytrace::GeometryKind::Deforming;
-    dmat4 world = scene_.start.nodes[shape.node].world * shape.conversion;
+    dmat4 world = pose_.nodes[shape.node].world * shape.conversion;
     world_.clear();
     for (uint32_t i : used_[shape.mesh]) {
-        dvec3 p = deforms ? dvec3(scene_.start.shapes[index].positions[i]) + scene_.origin
+        dvec3 p = deforms ? dvec3(pose_.shapes[index].positions[i]) + scene_.origin
                           : dvec3(world * dvec4(dvec3(mesh.positions[i]) + mesh.anchor, 1.0));
         if (std::isfinite(p.x + p.y + p.z)) world_.push_back(p);
     }

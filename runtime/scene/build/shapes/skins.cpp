@@ -10,24 +10,24 @@
 
 namespace kinora {
 
-NodePoses node_poses(Scene& scene) {
+NodePoses node_poses(const SceneNodes& scene, Pose& start) {
     NodePoses poses;
     if (scene.description->skins.empty()) return poses;
     auto keep = [&](std::vector<dmat4>& worlds) {
-        for (const NodePose& node : scene.start.nodes) worlds.push_back(node.world);
+        for (const NodePose& node : start.nodes) worlds.push_back(node.world);
     };
-    evaluate_anew(scene, scene.start, std::nullopt);
+    evaluate_anew(scene, start, std::nullopt);
     keep(poses.rest);
-    evaluate_anew(scene, scene.start, anim::time_range(scene.description->animation).begin);
+    evaluate_anew(scene, start, anim::time_range(scene.description->animation).begin);
     keep(poses.start);
     return poses;
 }
 
-SkinBinder::SkinBinder(const Scene& scene, const NodeTree& tree, NodePoses poses,
+SkinBinder::SkinBinder(const SceneNodes& scene, const NodeTree& tree, NodePoses poses,
                        Diagnostics& diagnostics)
     : scene_(scene), tree_(tree), poses_(std::move(poses)), diagnostics_(diagnostics) {}
 
-void SkinBinder::bind(const MeshUse& use, Shape& shape) const {
+void SkinBinder::bind(const MeshUse& use, const Mesh& mesh, Shape& shape) const {
     const SceneDescription& description = *scene_.description;
     std::string id = description.meshes[use.mesh].id;
     Location where;
@@ -40,7 +40,6 @@ void SkinBinder::bind(const MeshUse& use, Shape& shape) const {
         bind_joints(use, shape);
     }
     skin::SkinRepairs repairs;
-    const Mesh& mesh = scene_.meshes[shape.mesh];
     shape.skin_mesh =
         skin_mesh_of(scene_, use, mesh.positions.size(), mesh.normal_positions, nullptr, repairs);
     if (repairs.weight_sum && !weights_told)
@@ -142,7 +141,7 @@ void SkinBinder::choose_space(const SkinDefinition& skin, Shape& shape) const {
     if (space == SkinSpace::NodeBelow) shape.applies_below = shared;
 }
 
-skin::SkinMesh skin_mesh_of(const Scene& scene, const MeshUse& use, size_t vertices,
+skin::SkinMesh skin_mesh_of(const SceneResources& scene, const MeshUse& use, size_t vertices,
                             std::span<const uint32_t> normal_positions,
                             const std::vector<Stencil>* stencils, skin::SkinRepairs& repairs) {
     skin::InfluenceSource source;

@@ -9,6 +9,7 @@
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/bytestream/read_stream.h"
 #include "runtime/scene/ri/import/interpretation.h"
+#include "runtime/scene/ri/import/merge_meshes.h"
 
 namespace kinora {
 namespace {
@@ -81,6 +82,7 @@ std::optional<SceneDescription> import_rib(const SceneSource& source, const Impo
             diagnostics.report(Code::RIB_NO_WORLD, Location{}, source.path);
         found.reset();
     }
+    if (found) merge_meshes(*found);
     return found;
 }
 

@@ -8,8 +8,8 @@
 namespace kinora::ri {
 namespace {
 
-constexpr int kDeepestReplay = 64;
-constexpr size_t kMostReplayed = 20'000'000;  // calls of objects and archives, in a file
+constexpr size_t kDeepestReplay = 64;
+constexpr size_t kMostReplayed = 5'000'000;  // calls of objects and archives, in a file
 
 struct BlockRow {
     Request begin, end;
@@ -20,6 +20,10 @@ constexpr BlockRow kBlocks[] = {
     {Request::AttributeBegin, Request::AttributeEnd},
     {Request::TransformBegin, Request::TransformEnd},
     {Request::SolidBegin, Request::SolidEnd},
+    // These are kept, and never among the open blocks.
+    {Request::MotionBegin, Request::MotionEnd},
+    {Request::ObjectBegin, Request::ObjectEnd},
+    {Request::ArchiveBegin, Request::ArchiveEnd},
 };
 
 Request begin_of(Request end) {
@@ -63,76 +67,86 @@ class Between {
 }  // namespace
 
 void Interpreter::begin_block(const Call& call) {
-    Block block{call.request, call.where, attributes_, transform_, nullptr, {}};
+    Block block{call.request, call.where, state_.attributes, state_.transform, nullptr, {}};
     if (call.request == Request::FrameBegin) {
-        block.options = std::make_unique<Options>(options_);
+        if (state_.in_world() || frame_)
+            report_.add(Code::RI_NESTING, "FrameBegin", "a frame stands within another block");
+        block.options = std::make_unique<Options>(state_.options);
         frame_ = call.arguments[0].integer();
     }
     if (call.request == Request::SolidBegin && call.arguments[0].string() != "primitive")
-        not_done("SolidBegin", "solids are drawn as their surfaces");
-    blocks_.push_back(std::move(block));
+        report_.not_done("SolidBegin", "solids are drawn as their surfaces");
+    state_.blocks.push_back(std::move(block));
 }
 
 void Interpreter::world_begin(const Call& call) {
-    if (in_world())
-        return report(Code::RI_NESTING, "WorldBegin", "a world block stands within another");
-    blocks_.push_back({call.request, call.where, attributes_, transform_, nullptr, {}});
-    camera_from_world_ = transform_;
-    transform_ = dmat4(1.0);
+    if (state_.in_world())
+        return report_.add(Code::RI_NESTING, "WorldBegin", "a world block stands within another");
+    state_.blocks.push_back(
+        {call.request, call.where, state_.attributes, state_.transform, nullptr, {}});
+    state_.camera_from_world = state_.transform;
+    state_.transform = dmat4(1.0);
     ++worlds_;
-    world_ = std::make_unique<World>(options_, path_, import_, camera_from_world_,
-                                     frame_.value_or(worlds_));
+    state_.world = std::make_unique<World>(state_.options, state_.path, state_.import,
+                                           state_.camera_from_world, frame_.value_or(worlds_));
 }
 
 void Interpreter::world_end(const Call& call) {
-    if (!in_world()) return report(Code::RI_NESTING, "WorldEnd", "no world block is open");
+    if (!state_.in_world())
+        return report_.add(Code::RI_NESTING, "WorldEnd", "no world block is open");
     end_block(call);
 }
 
 void Interpreter::close_world() {
-    std::unique_ptr<World> world = std::move(world_);
-    camera_from_world_ = dmat4(1.0);
-    host_.take_world(world->take(spaces_));
+    std::unique_ptr<World> world = std::move(state_.world);
+    state_.camera_from_world = dmat4(1.0);
+    host_.take_world(world->take(state_.spaces));
 }
 
 void Interpreter::restore(Block& block) {
     if (block.begin == Request::WorldBegin) close_world();
-    if (block.begin != Request::TransformBegin) attributes_ = std::move(block.attributes);
-    if (block.options) options_ = std::move(*block.options);
+    if (block.begin != Request::TransformBegin) state_.attributes = std::move(block.attributes);
+    if (block.options) state_.options = std::move(*block.options);
     if (block.begin == Request::FrameBegin) frame_.reset();
-    transform_ = block.transform;
+    state_.transform = block.transform;
 }
 
 // An End closes its block and, with a finding, those opened since; one that has no block is left
 // out. A world or frame is not closed by what stands within it.
 void Interpreter::end_block(const Call& call) {
     const Request wanted = begin_of(call.request);
-    size_t at = blocks_.size();
-    while (at > 0 && blocks_[at - 1].begin != wanted) {
-        bool outer = blocks_[at - 1].begin == Request::WorldBegin;
+    size_t at = state_.blocks.size();
+    while (at > 0 && state_.blocks[at - 1].begin != wanted) {
+        bool outer = state_.blocks[at - 1].begin == Request::WorldBegin;
         if (outer && wanted != Request::FrameBegin) break;
         --at;
     }
-    if (at == 0 || blocks_[at - 1].begin != wanted)
-        return report(Code::RI_NESTING, row(call.request).name, "its block is not open");
-    if (at < blocks_.size())
-        report(Code::RI_NESTING, row(call.request).name,
-               fmt::format("{} is still open and ends with it", row(blocks_.back().begin).name));
-    while (blocks_.size() >= at) {
-        Block block = std::move(blocks_.back());
-        blocks_.pop_back();
+    if (at == 0 || state_.blocks[at - 1].begin != wanted)
+        return report_.add(Code::RI_NESTING, row(call.request).name, "its block is not open");
+    if (at < state_.blocks.size())
+        report_.add(
+            Code::RI_NESTING, row(call.request).name,
+            fmt::format("{} is still open and ends with it", row(state_.blocks.back().begin).name));
+    while (state_.blocks.size() >= at) {
+        Block block = std::move(state_.blocks.back());
+        state_.blocks.pop_back();
         restore(block);
     }
 }
 
 void Interpreter::finish() {
-    if (!blocks_.empty())
-        diagnostics_.report(Code::RI_NESTING, blocks_.back().where, row(blocks_.back().begin).name,
-                            "it is not closed at the file's end");
+    constexpr const char* kNotClosed = "it is not closed at the file's end";
+    const std::vector<Block>& blocks = state_.blocks;
+    if (!recording_.empty())
+        report_.add_at(Code::RI_NESTING, recording_.back().where,
+                       row(begin_of(recording_.back().end)).name, kNotClosed);
+    else if (!blocks.empty())
+        report_.add_at(Code::RI_NESTING, blocks.back().where, row(blocks.back().begin).name,
+                       kNotClosed);
     recording_.clear();
-    while (!blocks_.empty()) {
-        Block block = std::move(blocks_.back());
-        blocks_.pop_back();
+    while (!state_.blocks.empty()) {
+        Block block = std::move(state_.blocks.back());
+        state_.blocks.pop_back();
         restore(block);
     }
 }
@@ -146,18 +160,18 @@ void Interpreter::motion_begin(const Call& call) {
 // Of the calls of a motion block the one at the shutter's opening is done.
 void Interpreter::motion_end(const Call&) {
     if (recording_.empty() || recording_.back().end != Request::MotionEnd)
-        return report(Code::RI_NESTING, "MotionEnd", "its block is not open");
+        return report_.add(Code::RI_NESTING, "MotionEnd", "its block is not open");
     Recording motion = std::move(recording_.back());
     recording_.pop_back();
     const std::vector<Call>& calls = motion.calls->calls();
     if (calls.empty()) return;
     if (calls.size() != motion.times.size())
-        report(Code::RI_MOTION,
-               fmt::format("{} times and {} calls", motion.times.size(), calls.size()));
-    if (options_.shutter_close > options_.shutter_open)
-        not_done("MotionBegin", "things stand as at the opening of the shutter");
+        report_.add(Code::RI_MOTION,
+                    fmt::format("{} times and {} calls", motion.times.size(), calls.size()));
+    if (state_.options.shutter_close > state_.options.shutter_open)
+        report_.not_done("MotionBegin", "things stand as at the opening of the shutter");
     size_t count = std::min(calls.size(), motion.times.size()), at = 0;
-    const float open = float(options_.shutter_open);
+    const float open = float(state_.options.shutter_open);
     while (at + 1 < count && motion.times[at + 1] <= open) ++at;
     bool same = at + 1 < count && calls[at].request == calls[at + 1].request;
     if (!same || !(open > motion.times[at]))
@@ -192,7 +206,7 @@ bool Interpreter::record(const Call& call) {
         if (object)
             objects_[open.object] = open.calls;
         else
-            archives_.insert_or_assign(open.archive, open.calls);
+            keep_archive(open.archive, open.calls);
         recording_.pop_back();
         return true;
     }
@@ -200,82 +214,102 @@ bool Interpreter::record(const Call& call) {
     return true;
 }
 
+void Interpreter::keep_archive(const std::string& name, std::shared_ptr<CallList> calls) {
+    std::swap(archives_[name], calls);
+    if (calls) replaced_.push_back(std::move(calls));
+}
+
+// Whether what `name` names may be read once more; until leave() it may not, since it would never
+// end.
+bool Interpreter::enter(const std::string& name) {
+    const char* why = nullptr;
+    if (std::ranges::count(entered_, name))
+        why = "it stands within itself, and is left out there";
+    else if (entered_.size() >= kDeepestReplay || replayed_ > kMostReplayed)
+        why = "objects and archives stand within each other too deep or too often";
+    if (!why) entered_.push_back(name);
+    if (why && report_.is_new(why)) report_.add(Code::RI_RANGE, name, why);
+    return !why;
+}
+
+void Interpreter::leave() {
+    entered_.pop_back();
+}
+
 void Interpreter::replay(const CallList& calls) {
-    if (replay_depth_ >= kDeepestReplay || replayed_ > kMostReplayed) {
-        report(Code::RI_RANGE, "ObjectInstance",
-               "objects and archives stand within each other too deep or too often");
-        return;
-    }
-    ++replay_depth_;
     for (const Call& call : calls.calls()) {
-        ++replayed_;
         replayed_call_ = &call;
         this->call(call);
     }
-    --replay_depth_;
 }
 
 void Interpreter::object_instance(const Call& call) {
     auto object = objects_.find(call.arguments[0].integer());
-    if (object == objects_.end()) return report(Code::RI_HANDLE, "ObjectInstance");
+    if (object == objects_.end()) return report_.add(Code::RI_HANDLE, "ObjectInstance");
+    if (!enter(fmt::format("object {}", object->first))) return;
     std::shared_ptr<CallList> calls = object->second;  // one of its calls may replace it
-    Attributes attributes = attributes_;
-    dmat4 transform = transform_;
+    Attributes attributes = state_.attributes;
+    dmat4 transform = state_.transform;
     replay(*calls);
-    attributes_ = std::move(attributes);
-    transform_ = transform;
+    leave();
+    state_.attributes = std::move(attributes);
+    state_.transform = transform;
 }
 
 void Interpreter::read_archive(const Call& call) {
     std::string name(call.arguments[0].string());
+    if (!enter("archive " + name)) return;
     if (auto kept = archives_.find(name); kept != archives_.end()) {
         std::shared_ptr<CallList> calls = kept->second;
-        return replay(*calls);
+        replay(*calls);
+    } else if (!read_archive_file(name, call.where)) {
+        report_.add_at(Code::RI_ARCHIVE, call.where, name);
     }
-    if (replay_depth_ >= kDeepestReplay)
-        return report(Code::RI_RANGE, "ReadArchive", "archives read each other too deep");
-    ++replay_depth_;
-    bool found = false;
-    for (const std::string& folder : folders("archive"))
-        if (!found) found = host_.read_archive(folder + name);
-    if (size_t slash = name.find_last_of("/\\"); !found && slash != name.npos)
-        for (const std::string& folder : folders("archive"))
-            if (!found) found = host_.read_archive(folder + name.substr(slash + 1));
-    --replay_depth_;
-    if (!found) diagnostics_.report(Code::RI_ARCHIVE, call.where, name);
+    leave();
+}
+
+// Beside the file that names it, and in the folders of the first; then its bare name there.
+bool Interpreter::read_archive_file(const std::string& name, Location where) {
+    std::vector<std::string> folders = shaders_.folders("archive");
+    folders.insert(folders.begin(), report_.folder_of(where));
+    for (const std::string& folder : folders)
+        if (host_.read_archive(folder + name)) return true;
+    size_t slash = name.find_last_of("/\\");
+    for (size_t i = 0; i < folders.size() && slash != name.npos; ++i)
+        if (host_.read_archive(folders[i] + name.substr(slash + 1))) return true;
+    return false;
 }
 
 void Interpreter::procedural(const Call& call) {
     auto strings = call.arguments[1].strings();
     if (call.arguments[0].string() != "DelayedReadArchive" || strings.empty())
-        return not_done("Procedural", "programs and libraries that a file names are not run");
+        return report_.not_done("Procedural",
+                                "programs and libraries that a file names are not run");
     std::vector<Values> arguments{strings[0]};
     Call archive{Request::ReadArchive, arguments, {}, {}, call.where};
-    Attributes attributes = attributes_;
-    dmat4 transform = transform_;
+    Attributes attributes = state_.attributes;
+    dmat4 transform = state_.transform;
     read_archive(archive);
-    attributes_ = std::move(attributes);
-    transform_ = transform;
+    state_.attributes = std::move(attributes);
+    state_.transform = transform;
 }
 
 // Expressions are not computed: the first branch is read.
 void Interpreter::if_begin(const Call&) {
-    not_done("IfBegin", "expressions are not computed; the first branch is read");
+    report_.not_done("IfBegin", "expressions are not computed; the first branch is read");
     branches_.push_back(true);
 }
 
 void Interpreter::branch_else(const Call& call) {
     if (branches_.empty())
-        return report(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
+        return report_.add(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
     skipped_branch_ = 1;
 }
 
 void Interpreter::if_end(const Call& call) {
     if (branches_.empty())
-        return report(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
+        return report_.add(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
     branches_.pop_back();
 }
-
-void Interpreter::ignore(const Call&) {}
 
 }  // namespace kinora::ri

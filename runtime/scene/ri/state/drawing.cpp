@@ -23,51 +23,54 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
 
 }  // namespace
 
-bool Interpreter::in_detail() const {
-    return is_drawn() && attributes_.in_detail_range && attributes_.visible_to_camera;
+bool Interpreter::is_visible() const {
+    const int wanted = state_.import.world;
+    const Attributes& now = state_.attributes;
+    return (wanted < 0 || wanted == worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
 }
 
 void Interpreter::primitive(const Call& call) {
-    if (!in_detail()) return;
+    if (!is_visible()) return;
     // Calls of a list that is played again stand where they stood.
     const void* key = replayed_call_ == &call ? &call : nullptr;
-    if (key && world_->add_again(key, attributes_, to_camera())) return;
+    const dmat4 to_camera = state_.to_camera();
+    if (key && state_.world->add_again(key, state_.attributes, to_camera)) return;
     std::optional<MeshDefinition> mesh;
     if (is_polygon(call.request)) {
-        mesh = polygon_mesh(call, attributes_);
+        mesh = polygon_mesh(call, state_.attributes);
     } else if (call.request == Request::SubdivisionMesh) {
-        SubdivisionSurface surface = subdivision_surface(call, attributes_);
+        SubdivisionSurface surface = subdivision_surface(call, state_.attributes);
         if (surface.points.empty())
-            return report(Code::RI_DATA_MISSING, row(call.request).name, "P");
+            return report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
         if (call.arguments[0].string() != "catmull-clark")
-            not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
-        if (has_creases(call)) not_done("SubdivisionMesh", "creases, corners and holes are smooth");
-        mesh = mesh_of(subdivide(surface, world_->scale(to_camera())));
-    } else if (auto surface = curved_surface(call, attributes_)) {
-        mesh = mesh_of(tessellate(*surface, world_->scale(to_camera())));
+            report_.not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
+        if (has_creases(call))
+            report_.not_done("SubdivisionMesh", "creases, corners and holes are smooth");
+        mesh = mesh_of(subdivide(surface, state_.world->scale(state_.to_camera())));
+    } else if (auto surface = curved_surface(call, state_.attributes)) {
+        mesh = mesh_of(tessellate(*surface, state_.world->scale(state_.to_camera())));
     } else {
-        return report(Code::RI_DATA_MISSING, row(call.request).name, "P");
+        return report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
     }
     if (!mesh) return;
     mesh->where = call.where;
-    world_->add(std::move(*mesh), attributes_, to_camera());
-    if (key) world_->keep_mesh(key, attributes_);
+    state_.world->add(std::move(*mesh), state_.attributes, to_camera);
+    if (key) state_.world->keep_mesh(key, state_.attributes, to_camera);
 }
 
 void Interpreter::geometry(const Call& call) {
-    if (!in_detail()) return;
+    if (!is_visible()) return;
     if (call.arguments[0].string() != "teapot")
-        return not_done("Geometry", "only \"teapot\" is known");
-    for (const CurvedSurface& patch : teapot(attributes_))
-        if (auto mesh = mesh_of(tessellate(patch, world_->scale(to_camera())))) {
+        return report_.not_done("Geometry", "only \"teapot\" is known");
+    for (const CurvedSurface& patch : teapot(state_.attributes))
+        if (auto mesh = mesh_of(tessellate(patch, state_.world->scale(state_.to_camera())))) {
             mesh->where = call.where;
-            world_->add(std::move(*mesh), attributes_, to_camera());
+            state_.world->add(std::move(*mesh), state_.attributes, state_.to_camera());
         }
 }
 
 void Interpreter::not_drawn(const Call& call) {
-    std::string name(row(call.request).name);
-    not_done(name.c_str(), "it is not drawn");
+    report_.not_done(row(call.request).name, "it is not drawn");
 }
 
 }  // namespace kinora::ri

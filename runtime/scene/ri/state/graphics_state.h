@@ -82,7 +82,7 @@ struct Attributes {
     std::vector<Binding> atmospheres, interiors, exteriors;
     std::vector<Light> lights;  // that are on, in the order in which they came
     Light area_light;           // what comes is geometry of it
-    bool no_surface = false;    // Surface "null": nothing is seen of what comes
+    bool no_surface = false;    // Surface "null": what comes is black
     double shading_rate = 1;
     bool matte = false;
     bool two_sided = true;

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "runtime/scene/description/findings.h"
-#include "runtime/scene/ri/state/interpreter.h"
+#include "runtime/scene/ri/state/shader_calls.h"
 
 namespace kinora::ri {
 namespace {
@@ -29,21 +29,21 @@ bool names_shadow(std::string_view parameter) {
 
 }  // namespace
 
-void Interpreter::make_map(const Call& call) {
+void ShaderCalls::make_map(const Call& call) {
     maps_.insert_or_assign(std::string(call.arguments[1].string()),
                            std::string(call.arguments[0].string()));
 }
 
-void Interpreter::make_cube_map(const Call&) {
-    not_done("MakeCubeFaceEnvironment", "the map is not made");
+void ShaderCalls::make_cube_map(const Call&) {
+    report_.not_done("MakeCubeFaceEnvironment", "the map is not made");
 }
 
-void Interpreter::make_shadow(const Call& call) {
+void ShaderCalls::make_shadow(const Call& call) {
     shadows_.insert(std::string(call.arguments[1].string()));
 }
 
 // The file of that name along the search path; else the picture that it was made of. "": none.
-std::string Interpreter::picture_file(const std::string& name) const {
+std::string ShaderCalls::picture_file(const std::string& name) const {
     for (const std::string& folder : folders("texture"))
         if (is_file(folder + name)) return folder + name;
     fs::path stem = name;
@@ -58,7 +58,7 @@ std::string Interpreter::picture_file(const std::string& name) const {
 
 // What a string of a shader's parameters means. Depth maps of a file that renders them itself, and
 // those that are not there, are traced.
-std::string Interpreter::map_name(std::string_view parameter, const std::string& name,
+std::string ShaderCalls::map_name(std::string_view parameter, const std::string& name,
                                   const rsl::Shader& shader) {
     if (name.empty() || name == "raytrace") return name;
     if (auto made = maps_.find(name); made != maps_.end()) {
@@ -70,7 +70,7 @@ std::string Interpreter::map_name(std::string_view parameter, const std::string&
     if (!file.empty()) return file;
     bool shadow = shader.kind == rsl::ShaderKind::Light && names_shadow(parameter);
     if (!made_here && !shadow) return name;
-    if (told_.insert("shadow " + name).second) report(Code::RI_SHADOW_TRACED, name);
+    if (report_.is_new("shadow " + name)) report_.add(Code::RI_SHADOW_TRACED, name);
     return "raytrace";
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "runtime/base/triangulate.h"
+#include "runtime/base/polygons/triangulate.h"
 #include "runtime/scene/ri/state/primitives.h"
 
 namespace kinora::ri {

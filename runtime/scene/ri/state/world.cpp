@@ -41,6 +41,22 @@ Frame frame_of(const Options& options) {
     return frame;
 }
 
+// A transformation as one that moves alone, and sizes behind it along x, y and z: a camera has no
+// size, but its window and its planes do.
+struct Parts {
+    dvec3 size{1.0};
+    dmat4 placed;
+};
+Parts parts_of(const dmat4& m) {
+    Parts made{dvec3(1.0), m};
+    for (int r = 0; r < 3; ++r) made.size[r] = glm::length(dvec3(m[0][r], m[1][r], m[2][r]));
+    if (!(made.size.x * made.size.y * made.size.z > 0)) return {dvec3(1.0), m};
+    if (glm::determinant(dmat3(m)) < 0) made.size.x = -made.size.x;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 3; ++r) made.placed[c][r] /= made.size[r];
+    return made;
+}
+
 std::array<double, 4> screen_of(const Options& options, double aspect) {
     if (options.screen_window) return *options.screen_window;
     if (aspect >= 1) return {-aspect, aspect, -1, 1};
@@ -50,8 +66,12 @@ std::array<double, 4> screen_of(const Options& options, double aspect) {
 struct Pixels {
     int first, last;
 };
+// What a file has are floats: 0.1 of 640 pixels, a little more than 64, are 64.
 Pixels cropped(int size, double low, double high) {
-    auto at = [&](double x) { return int(std::clamp(std::ceil(x), 0.0, double(size - 1))); };
+    constexpr double kFloatError = 1e-7;
+    auto at = [&](double x) {
+        return int(std::clamp(std::ceil(x - kFloatError * size), 0.0, double(size - 1)));
+    };
     Pixels made{at(size * low), at(size * high - 1)};
     made.last = std::max(made.first, made.last);
     return made;
@@ -70,6 +90,21 @@ FilePicture picture_of(const Options& options) {
     for (FileDisplay& display : made.displays)
         display.quantization = display.mode == "z" ? options.depths : options.colors;
     return made;
+}
+
+// What of the attributes changes a primitive's mesh.
+std::vector<double> shape_key(const Attributes& attributes) {
+    std::vector<double> key(attributes.corners.begin(), attributes.corners.end());
+    key.push_back(attributes.inside_out);
+    for (const Basis* basis : {&attributes.u, &attributes.v}) {
+        auto numbers = numbers_of(basis->matrix);
+        key.insert(key.end(), numbers.begin(), numbers.end());
+        key.push_back(basis->step);
+    }
+    key.push_back(attributes.trim_outside);
+    for (const TrimLoop& loop : attributes.trims)
+        for (const dvec2& p : loop) key.insert(key.end(), {p.x, p.y});
+    return key;
 }
 
 }  // namespace
@@ -111,17 +146,21 @@ void World::add_camera() {
     CameraDefinition camera;
     camera.id = "camera";
     camera.orthographic = !options_.projection.perspective;
-    camera.window = {camera_.window[0], camera_.window[1], camera_.window[2], camera_.window[3]};
+    auto [size, placed] = parts_of(options_.projection.from_camera);
+    const double* w = camera_.window;
+    const double depth = camera.orthographic ? 1 : size.z;
+    const double x = depth / size.x, y = depth / size.y;
+    camera.window = {w[0] * x, w[1] * x, w[2] * y, w[3] * y};
     camera.clips = true;
-    double near = std::max(options_.near, 1e-10), far = std::min(options_.far, 1e30);
+    double near = std::max(options_.near / size.z, 1e-10),
+           far = std::min(options_.far / size.z, 1e30);
     camera.znear = values(std::span(&near, 1));
     camera.zfar = values(std::span(&far, 1));
     for (const Binding& imager : options_.imagers)
         camera.picture.imagers.push_back(shader_use(*imager, nullptr));
     out_.cameras.push_back(std::move(camera));
     // What the transformation was at Projection comes between the camera and the screen.
-    NodeDefinition& node =
-        out_.nodes[this->node(glm::inverse(options_.projection.from_camera), "camera node")];
+    NodeDefinition& node = out_.nodes[this->node(glm::inverse(placed), "camera node")];
     node.cameras = {0};
     // A camera node looks along its own -z.
     for (int r = 0; r < 3; ++r) out_.values[node.transforms[0].value + size_t(4 * r + 2)] *= -1;
@@ -219,18 +258,18 @@ uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
                                          &attributes.deformations, &attributes.interiors,
                                          &attributes.exteriors};
     std::string key;
-    bool own_space = false;
     for (const auto* bindings : all) {
-        for (const Binding& binding : *bindings) {
-            key += fmt::format(" {}", static_cast<const void*>(binding.get()));
-            own_space |= binding->to_camera != to_camera;
-        }
+        for (const Binding& binding : *bindings)
+            key += fmt::format(" {} {}", static_cast<const void*>(binding.get()),
+                               binding->to_camera != to_camera);
         key += ';';
     }
+    if (const LightBinding* light = attributes.area_light.get())
+        key += fmt::format("{} {};", static_cast<const void*>(light),
+                           light->shader.to_camera != to_camera);
     const dvec3 &c = attributes.color, &o = attributes.opacity;
-    key += fmt::format("{} {} {} {} {} {} {} {} {} {}", c.x, c.y, c.z, o.x, o.y, o.z,
-                       attributes.two_sided, attributes.no_surface, own_space,
-                       static_cast<const void*>(attributes.area_light.get()));
+    key += fmt::format("{} {} {} {} {} {} {} {}", c.x, c.y, c.z, o.x, o.y, o.z,
+                       attributes.two_sided, attributes.no_surface);
     auto [entry, is_new] = materials_.try_emplace(std::move(key), uint32_t(out_.materials.size()));
     if (!is_new) return entry->second;
     for (const auto* bindings : all) held_.insert(held_.end(), bindings->begin(), bindings->end());
@@ -288,14 +327,31 @@ void World::add(MeshDefinition mesh, const Attributes& attributes, const dmat4& 
     use_mesh(index, attributes, to_camera);
 }
 
-void World::keep_mesh(const void* key, const Attributes& attributes) {
-    kept_[{key, attributes.inside_out}] = uint32_t(out_.meshes.size() - 1);
+// Of a unit of the mesh, where it is nearest.
+double World::pixels_of(const KeptMesh& kept, const dmat4& to_camera) const {
+    const PictureScale at = scale(to_camera);
+    double size = 0;
+    for (int c = 0; c < 3; ++c) size = std::max(size, glm::length(dvec3(at.to_camera[c])));
+    double z = (at.to_camera * dvec4(kept.center, 1)).z - kept.radius * size;
+    return at.pixels * size / (at.orthographic ? 1 : std::max(z, at.near));
+}
+
+void World::keep_mesh(const void* key, const Attributes& attributes, const dmat4& to_camera) {
+    KeptMesh kept{uint32_t(out_.meshes.size() - 1), {}, 0, 0};
+    dvec3 low(1e300), high(-1e300);
+    for (const dvec3& p : out_.meshes.back().positions)
+        low = glm::min(low, p), high = glm::max(high, p);
+    kept.center = (low + high) / 2.0, kept.radius = glm::length(high - low) / 2;
+    kept.pixels = pixels_of(kept, to_camera);
+    kept_.insert_or_assign({key, shape_key(attributes)}, kept);
 }
 
 bool World::add_again(const void* key, const Attributes& attributes, const dmat4& to_camera) {
-    auto known = kept_.find({key, attributes.inside_out});
+    constexpr double kCoarser = 1.5;
+    auto known = kept_.find({key, shape_key(attributes)});
     if (known == kept_.end()) return false;
-    use_mesh(known->second, attributes, to_camera);
+    if (!(pixels_of(known->second, to_camera) <= kCoarser * known->second.pixels)) return false;
+    use_mesh(known->second.mesh, attributes, to_camera);
     return true;
 }
 

@@ -33,8 +33,8 @@ class World {
     // A primitive, as attributes and transformation are.
     void add(MeshDefinition mesh, const Attributes& attributes, const dmat4& to_camera);
     // Keeps the mesh of the last add() for a call that comes again (`key`), and draws it again.
-    // False: there is none.
-    void keep_mesh(const void* key, const Attributes& attributes);
+    // False: there is none, for these attributes, that is as fine as it must be there.
+    void keep_mesh(const void* key, const Attributes& attributes, const dmat4& to_camera);
     bool add_again(const void* key, const Attributes& attributes, const dmat4& to_camera);
 
     PictureScale scale(const dmat4& to_camera) const;
@@ -43,6 +43,13 @@ class World {
     SceneDescription take(const std::map<std::string, dmat4, std::less<>>& spaces);
 
   private:
+    struct KeptMesh {
+        uint32_t mesh;
+        dvec3 center;  // of its box, and half the diagonal
+        double radius;
+        double pixels;  // of a unit, for which it was made
+    };
+    double pixels_of(const KeptMesh& kept, const dmat4& to_camera) const;
     void use_mesh(uint32_t mesh, const Attributes& attributes, const dmat4& to_camera);
     uint32_t material(const Attributes& attributes, const dmat4& to_camera);
     ShaderUse shader_use(const ShaderBinding& binding, const dmat4* object_to_camera);
@@ -65,7 +72,7 @@ class World {
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
     std::map<std::array<double, 16>, uint32_t> nodes_;
     std::map<std::array<double, 16>, std::string> spaces_;
-    std::map<std::pair<const void*, bool>, uint32_t> kept_;  // also by Attributes::inside_out
+    std::map<std::pair<const void*, std::vector<double>>, KeptMesh> kept_;  // by shape_key()
 };
 
 }  // namespace kinora::ri

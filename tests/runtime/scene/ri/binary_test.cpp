@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::string_literals;
 
-Texts calls(std::string bytes) {
+Texts calls_of(std::string bytes) {
     ReadCalls read = read_calls(std::move(bytes));
     EXPECT_EQ(read.messages, Texts());
     return read.calls;
@@ -34,77 +34,77 @@ std::string gzip(const std::string& bytes) {
 }
 
 TEST(RibBinary, IntegersAreSignedAndMayHaveFractions) {
-    EXPECT_EQ(calls("Sides \200\002"s), Texts{"Sides 2i"});
-    EXPECT_EQ(calls("Sides \200\377"s), Texts{"Sides -1i"});
-    EXPECT_EQ(calls("Sides \201\002\200"s), Texts{"Sides 640i"});
-    EXPECT_EQ(calls("Sides \202\377\000\000"s), Texts{"Sides -65536i"});
-    EXPECT_EQ(calls("Sides \203\001\000\000\000"s), Texts{"Sides 16777216i"});
-    EXPECT_EQ(calls("ShadingRate \204\100"s), Texts{"ShadingRate 0.25"});
-    EXPECT_EQ(calls("ShadingRate \205\001\200"s), Texts{"ShadingRate 1.5"});
-    EXPECT_EQ(calls("ShadingRate \206\001\000\100"s), Texts{"ShadingRate 256.25"});
-    EXPECT_EQ(calls("ShadingRate \207\377\377\377\200"s), Texts{"ShadingRate -0.5"});
-    EXPECT_EQ(calls("ShadingRate \210\100"s), Texts{"ShadingRate 0.0009765625"});
-    EXPECT_EQ(calls("ShadingRate \213\000\001\100\000"s), Texts{"ShadingRate 1.25"});
-    EXPECT_EQ(calls("ShadingRate \217\100\000\000\000"s), Texts{"ShadingRate 64"});
+    EXPECT_EQ(calls_of("Sides \200\002"s), Texts{"Sides 2i"});
+    EXPECT_EQ(calls_of("Sides \200\377"s), Texts{"Sides -1i"});
+    EXPECT_EQ(calls_of("Sides \201\002\200"s), Texts{"Sides 640i"});
+    EXPECT_EQ(calls_of("Sides \202\377\000\000"s), Texts{"Sides -65536i"});
+    EXPECT_EQ(calls_of("Sides \203\001\000\000\000"s), Texts{"Sides 16777216i"});
+    EXPECT_EQ(calls_of("ShadingRate \204\100"s), Texts{"ShadingRate 0.25"});
+    EXPECT_EQ(calls_of("ShadingRate \205\001\200"s), Texts{"ShadingRate 1.5"});
+    EXPECT_EQ(calls_of("ShadingRate \206\001\000\100"s), Texts{"ShadingRate 256.25"});
+    EXPECT_EQ(calls_of("ShadingRate \207\377\377\377\200"s), Texts{"ShadingRate -0.5"});
+    EXPECT_EQ(calls_of("ShadingRate \210\100"s), Texts{"ShadingRate 0.0009765625"});
+    EXPECT_EQ(calls_of("ShadingRate \213\000\001\100\000"s), Texts{"ShadingRate 1.25"});
+    EXPECT_EQ(calls_of("ShadingRate \217\100\000\000\000"s), Texts{"ShadingRate 64"});
 }
 
 TEST(RibBinary, Reals) {
-    EXPECT_EQ(calls("ShadingRate \244\077\200\000\000"s), Texts{"ShadingRate 1"});
-    EXPECT_EQ(calls("ShadingRate \245\300\004\000\000\000\000\000\000"s),
+    EXPECT_EQ(calls_of("ShadingRate \244\077\200\000\000"s), Texts{"ShadingRate 1"});
+    EXPECT_EQ(calls_of("ShadingRate \245\300\004\000\000\000\000\000\000"s),
               Texts{"ShadingRate -2.5"});
 }
 
 TEST(RibBinary, Strings) {
-    EXPECT_EQ(calls("Orientation \222lh"s), Texts{"Orientation \"lh\""});
-    EXPECT_EQ(calls("Orientation \220"s), Texts{"Orientation \"\""});
-    EXPECT_EQ(calls("Orientation \23712345678901234\\"s),
+    EXPECT_EQ(calls_of("Orientation \222lh"s), Texts{"Orientation \"lh\""});
+    EXPECT_EQ(calls_of("Orientation \220"s), Texts{"Orientation \"\""});
+    EXPECT_EQ(calls_of("Orientation \23712345678901234\\"s),
               Texts{"Orientation \"12345678901234\\\""});
-    EXPECT_EQ(calls("Orientation \240\003a\"b"s), Texts{"Orientation \"a\"b\""});
-    EXPECT_EQ(calls("Orientation \241\000\002lh"s), Texts{"Orientation \"lh\""});
-    EXPECT_EQ(calls("Orientation \242\000\000\002lh"s), Texts{"Orientation \"lh\""});
-    EXPECT_EQ(calls("Orientation \243\000\000\000\002l\377"s), Texts{"Orientation \"l\377\""});
+    EXPECT_EQ(calls_of("Orientation \240\003a\"b"s), Texts{"Orientation \"a\"b\""});
+    EXPECT_EQ(calls_of("Orientation \241\000\002lh"s), Texts{"Orientation \"lh\""});
+    EXPECT_EQ(calls_of("Orientation \242\000\000\002lh"s), Texts{"Orientation \"lh\""});
+    EXPECT_EQ(calls_of("Orientation \243\000\000\000\002l\377"s), Texts{"Orientation \"l\377\""});
 }
 
 TEST(RibBinary, RequestsAreDefined) {
-    EXPECT_EQ(calls("\314\001\225Sides\246\001\200\002\246\001\200\001"s),
+    EXPECT_EQ(calls_of("\314\001\225Sides\246\001\200\002\246\001\200\001"s),
               (Texts{"Sides 2i", "Sides 1i"}));
-    EXPECT_EQ(calls("\314\000 \"Matte\" \246\000\200\001\314\000\225Sides\246\000\200\001"s),
+    EXPECT_EQ(calls_of("\314\000 \"Matte\" \246\000\200\001\314\000\225Sides\246\000\200\001"s),
               (Texts{"Matte 1i", "Sides 1i"}));
-    EXPECT_EQ(calls("\314\377\240\005Sides\246\377 2"s), Texts{"Sides 2i"});
+    EXPECT_EQ(calls_of("\314\377\240\005Sides\246\377 2"s), Texts{"Sides 2i"});
 }
 
 TEST(RibBinary, StringTokensAreDefined) {
-    EXPECT_EQ(calls("\315\005\222lh Orientation\317\005Orientation\317\005"s),
+    EXPECT_EQ(calls_of("\315\005\222lh Orientation\317\005Orientation\317\005"s),
               (Texts{"Orientation \"lh\"", "Orientation \"lh\""}));
-    EXPECT_EQ(calls("Orientation\316\001\000\"rh\"\320\001\000"s), Texts{"Orientation \"rh\""});
-    EXPECT_EQ(calls("\315\001\222lh\315\002\317\001\315\001\222rh Orientation\317\002"s),
+    EXPECT_EQ(calls_of("Orientation\316\001\000\"rh\"\320\001\000"s), Texts{"Orientation \"rh\""});
+    EXPECT_EQ(calls_of("\315\001\222lh\315\002\317\001\315\001\222rh Orientation\317\002"s),
               Texts{"Orientation \"lh\""});
-    EXPECT_EQ(calls("Declare \315\001\221q\317\001\315\001\225float\317\001"s),
+    EXPECT_EQ(calls_of("Declare \315\001\221q\317\001\315\001\225float\317\001"s),
               Texts{"Declare \"q\" \"float\""});
 }
 
 TEST(RibBinary, ArraysOfSingles) {
-    EXPECT_EQ(calls("Color\310\003\077\200\000\000\000\000\000\000\277\000\000\000"s),
+    EXPECT_EQ(calls_of("Color\310\003\077\200\000\000\000\000\000\000\277\000\000\000"s),
               Texts{"Color [1 0 -0.5]"});
-    EXPECT_EQ(calls("Points\"P\"\311\000\003\077\200\000\000\000\000\000\000\277\000\000\000"s),
+    EXPECT_EQ(calls_of("Points\"P\"\311\000\003\077\200\000\000\000\000\000\000\277\000\000\000"s),
               Texts{"Points \"vertex point P\" [1 0 -0.5]"});
-    EXPECT_EQ(calls("MotionBegin\312\000\000\001\077\200\000\000"s), Texts{"MotionBegin [1]"});
-    EXPECT_EQ(calls("MotionBegin\313\000\000\000\000Sides 1"s),
+    EXPECT_EQ(calls_of("MotionBegin\312\000\000\001\077\200\000\000"s), Texts{"MotionBegin [1]"});
+    EXPECT_EQ(calls_of("MotionBegin\313\000\000\000\000Sides 1"s),
               (Texts{"MotionBegin []", "Sides 1i"}));
-    EXPECT_EQ(calls("Color[\200\001\244\077\000\000\000 .25]"s), Texts{"Color [1 0.5 0.25]"});
-    EXPECT_EQ(calls("SubdivisionMesh\"catmull-clark\"\310\001\100\100\000\000[0 1 2]"
+    EXPECT_EQ(calls_of("Color[\200\001\244\077\000\000\000 .25]"s), Texts{"Color [1 0.5 0.25]"});
+    EXPECT_EQ(calls_of("SubdivisionMesh\"catmull-clark\"\310\001\100\100\000\000[0 1 2]"
                     "\310\000\310\000\310\000\310\000\"P\"[0 0 0 1 0 0 0 1 0]"s)
                   .size(),
               1u);
 }
 
 TEST(RibBinary, FormsMixAndCommentsHoldAnything) {
-    EXPECT_EQ(calls("# \246\001\377\n\314\001\225Sides\246\001 2#\315\r\246\001\200\001Matte 1"s),
+    EXPECT_EQ(calls_of("# \246\001\377\n\314\001\225Sides\246\001 2#\315\r\246\001\200\001Matte 1"s),
               (Texts{"Sides 2i", "Sides 1i", "Matte 1i"}));
 }
 
 TEST(RibBinary, TheEndOfInputEnds) {
-    EXPECT_EQ(calls("Sides 1 \377 Sides 2"s), Texts{"Sides 1i"});
+    EXPECT_EQ(calls_of("Sides 1 \377 Sides 2"s), Texts{"Sides 1i"});
 }
 
 TEST(RibBinary, WrongCodesAreFound) {
@@ -133,9 +133,9 @@ TEST(RibBinary, StreamsThatAreCutOffKeepWhatIsWhole) {
 TEST(RibGzip, PackedStreamsAreUnpacked) {
     std::string text = "Sides 1 Matte 1";
     Texts expected{"Sides 1i", "Matte 1i"};
-    EXPECT_EQ(calls(gzip(text)), expected);
-    EXPECT_EQ(calls(gzip(gzip(text))), expected);
-    EXPECT_EQ(calls(gzip("Sides 1 ") + gzip("Matte 1")), expected);
+    EXPECT_EQ(calls_of(gzip(text)), expected);
+    EXPECT_EQ(calls_of(gzip(gzip(text))), expected);
+    EXPECT_EQ(calls_of(gzip("Sides 1 ") + gzip("Matte 1")), expected);
     EXPECT_TRUE(looks_like_rib(gzip(text)));
     EXPECT_TRUE(looks_like_rib(gzip(gzip(text))));
     EXPECT_FALSE(looks_like_rib(gzip("<COLLADA>")));

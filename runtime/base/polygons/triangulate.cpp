@@ -1,7 +1,7 @@
-// runtime/base/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first
+// runtime/base/polygons/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first
 // joined to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what touches
 // itself then is taken apart.
-#include "runtime/base/triangulate.h"
+#include "runtime/base/polygons/triangulate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// runtime/base/triangulate.h: polygons with holes become triangles.
+// runtime/base/polygons/triangulate.h: polygons with holes become triangles.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,167 @@
+// runtime/scene/ri/state/attribute_calls.cpp: attributes of shading and geometry but for shaders.
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/calls/ri.h"
+#include "runtime/scene/ri/state/attribute_calls.h"
+#include "runtime/scene/ri/state/trim_curves.h"
+
+namespace kinora::ri {
+namespace {
+
+struct NamedBasis {
+    std::string_view name;
+    const RtBasis* matrix;
+};
+const NamedBasis kBases[] = {
+    {"bezier", &RiBezierBasis},   {"b-spline", &RiBSplineBasis},
+    {"bspline", &RiBSplineBasis}, {"catmull-rom", &RiCatmullRomBasis},
+    {"hermite", &RiHermiteBasis}, {"power", &RiPowerBasis},
+};
+
+std::optional<dmat4> basis_matrix(const Values& values) {
+    const float* numbers = nullptr;
+    if (values.kind() == Values::Kind::Strings) {
+        for (const NamedBasis& named : kBases)
+            if (named.name == values.string()) numbers = &(*named.matrix)[0][0];
+    } else if (values.size() == 16) {
+        numbers = values.floats().data();
+    }
+    if (!numbers) return std::nullopt;
+    dmat4 m(1.0);
+    for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) m[c][r] = double(numbers[4 * r + c]);
+    return m;
+}
+
+}  // namespace
+
+bool AttributeCalls::call(const Call& call) {
+    using R = Request;
+    using C = AttributeCalls;
+    static const Handlers<C> kHandlers = {
+        {R::Color, &C::color},
+        {R::Opacity, &C::opacity},
+        {R::TextureCoordinates, &C::texture_coordinates},
+        {R::ShadingRate, &C::shading_rate},
+        {R::Matte, &C::matte},
+        {R::Attribute, &C::attribute},
+        {R::Detail, &C::detail},
+        {R::DetailRange, &C::detail_range},
+        {R::Orientation, &C::orientation},
+        {R::ReverseOrientation, &C::reverse_orientation},
+        {R::Sides, &C::sides},
+        {R::Basis, &C::basis},
+        {R::TrimCurve, &C::trim_curve},
+    };
+    return kHandlers.call(*this, call);
+}
+
+void AttributeCalls::color(const Call& call) {
+    state_.attributes.color = rgb_of(call.arguments[0], state_.options);
+}
+
+void AttributeCalls::opacity(const Call& call) {
+    state_.attributes.opacity = rgb_of(call.arguments[0], state_.options);
+}
+
+void AttributeCalls::texture_coordinates(const Call& call) {
+    for (size_t i = 0; i < 8; ++i) state_.attributes.corners[i] = double(call.arguments[i].real());
+}
+
+void AttributeCalls::shading_rate(const Call& call) {
+    if (call.arguments[0].real() > 0)
+        state_.attributes.shading_rate = double(call.arguments[0].real());
+}
+
+void AttributeCalls::matte(const Call& call) {
+    state_.attributes.matte = call.arguments[0].integer() != 0;
+    if (state_.attributes.matte) report_.not_done("Matte", "the object is drawn as others are");
+}
+
+void AttributeCalls::attribute(const Call& call) {
+    std::string_view group = call.arguments[0].string();
+    for (const Parameter& p : call.parameters) {
+        if (group == "identifier" && p.name == "name") state_.attributes.name = p.values.string();
+        if (group == "light" && p.name == "shadows")
+            state_.attributes.light_shadows = p.values.string() == "on";
+        if (group == "light" && p.name == "nsamples")
+            state_.attributes.light_samples = p.values.integer();
+        if (group == "visibility" && p.name == "camera")
+            state_.attributes.visible_to_camera = p.values.integer() != 0;
+        if (group == "trimcurve" && p.name == "sense")
+            state_.attributes.trim_outside = p.values.string() == "outside";
+    }
+}
+
+void AttributeCalls::detail(const Call& call) {
+    auto box = call.arguments[0].floats();
+    state_.attributes.has_detail = box.size() == 6;
+    for (size_t i = 0; i < 6 && i < box.size(); ++i)
+        state_.attributes.detail_box[i] = double(box[i]);
+}
+
+// The area in pixels of the box that Detail gave decides; in a range of transition the nearer of
+// both. Where no box was given all ranges are drawn.
+void AttributeCalls::detail_range(const Call& call) {
+    state_.attributes.in_detail_range = true;
+    if (!state_.attributes.has_detail || !state_.in_world()) return;
+    double low = double(call.arguments[0].real()), lower = double(call.arguments[1].real());
+    double upper = double(call.arguments[2].real()), high = double(call.arguments[3].real());
+    const std::array<double, 6>& box = state_.attributes.detail_box;
+    PictureScale scale = state_.world->scale(state_.to_camera());
+    dvec2 least(1e30), most(-1e30);
+    for (int corner = 0; corner < 8; ++corner) {
+        dvec4 p = scale.to_camera * dvec4(box[corner & 1], box[2 + ((corner >> 1) & 1)],
+                                          box[4 + ((corner >> 2) & 1)], 1);
+        double z = scale.orthographic ? 1 : std::max(p.z, scale.near);
+        dvec2 at = dvec2(p.x, p.y) * (scale.pixels / z);
+        least = glm::min(least, at), most = glm::max(most, at);
+    }
+    double area = (most.x - least.x) * (most.y - least.y) * state_.options.relative_detail;
+    state_.attributes.in_detail_range = area >= (low + lower) / 2 && area < (upper + high) / 2;
+}
+
+void AttributeCalls::orientation(const Call& call) {
+    std::string_view side = call.arguments[0].string();
+    bool left_handed = glm::determinant(state_.to_camera()) > 0;  // camera space is
+    if (side == "outside")
+        state_.attributes.inside_out = false;
+    else if (side == "inside")
+        state_.attributes.inside_out = true;
+    else if (side == "lh")
+        state_.attributes.inside_out = !left_handed;
+    else if (side == "rh")
+        state_.attributes.inside_out = left_handed;
+    else
+        report_.add(Code::RI_RANGE, "Orientation", "it is outside, inside, lh or rh");
+}
+
+void AttributeCalls::reverse_orientation(const Call&) {
+    state_.attributes.inside_out = !state_.attributes.inside_out;
+}
+
+void AttributeCalls::sides(const Call& call) {
+    int sides = call.arguments[0].integer();
+    if (sides != 1 && sides != 2) return report_.add(Code::RI_RANGE, "Sides", "it is 1 or 2");
+    state_.attributes.two_sided = sides == 2;
+}
+
+void AttributeCalls::basis(const Call& call) {
+    std::optional<dmat4> u = basis_matrix(call.arguments[0]), v = basis_matrix(call.arguments[2]);
+    if (!u || !v)
+        return report_.add(Code::RI_RANGE, "Basis",
+                           "it is bezier, b-spline, catmull-rom, hermite, power or 16 numbers");
+    state_.attributes.u = {*u, uint32_t(std::max(call.arguments[1].integer(), 1))};
+    state_.attributes.v = {*v, uint32_t(std::max(call.arguments[3].integer(), 1))};
+}
+
+void AttributeCalls::trim_curve(const Call& call) {
+    std::string why;
+    state_.attributes.trims = trim_loops(call, why);
+    if (!why.empty()) report_.add(Code::RI_COUNTS, "TrimCurve", why);
+}
+
+}  // namespace kinora::ri

@@ -1,0 +1,209 @@
+// runtime/scene/ri/state/option_calls.cpp: options of the camera and the picture.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "runtime/base/transform_matrix.h"
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/state/option_calls.h"
+
+namespace kinora::ri {
+namespace {
+
+double real(const Call& call, size_t at) {
+    return double(call.arguments[at].real());
+}
+
+bool all_finite(const Call& call) {
+    return std::ranges::all_of(call.arguments, [](const Values& values) {
+        return std::ranges::all_of(values.floats(), [](float x) { return std::isfinite(x); });
+    });
+}
+
+}  // namespace
+
+bool OptionCalls::call(const Call& call) {
+    using R = Request;
+    using C = OptionCalls;
+    static const Handlers<C> kHandlers = {
+        {R::Format, &C::format},
+        {R::FrameAspectRatio, &C::frame_aspect_ratio},
+        {R::ScreenWindow, &C::screen_window},
+        {R::CropWindow, &C::crop_window},
+        {R::Projection, &C::projection},
+        {R::Clipping, &C::clipping},
+        {R::ClippingPlane, &C::clipping_plane},
+        {R::DepthOfField, &C::depth_of_field},
+        {R::Shutter, &C::shutter},
+        {R::PixelSamples, &C::pixel_samples},
+        {R::PixelFilter, &C::pixel_filter},
+        {R::Exposure, &C::exposure},
+        {R::Imager, &C::imager},
+        {R::Quantize, &C::quantize},
+        {R::Display, &C::display},
+        {R::ColorSamples, &C::color_samples},
+        {R::RelativeDetail, &C::relative_detail},
+        {R::Option, &C::option},
+    };
+    return kHandlers.call(*this, call);
+}
+
+void OptionCalls::format(const Call& call) {
+    constexpr int kLargest = 65536;
+    int width = call.arguments[0].integer(), height = call.arguments[1].integer();
+    if (width > kLargest || height > kLargest)
+        return report_.add(Code::RI_RANGE, "Format", "a side is longer than 65536 pixels");
+    if (width > 0) state_.options.width = width;
+    if (height > 0) state_.options.height = height;
+    double aspect = real(call, 2);
+    if (aspect > 0 && std::isfinite(aspect)) state_.options.pixel_aspect = aspect;
+}
+
+void OptionCalls::frame_aspect_ratio(const Call& call) {
+    double aspect = real(call, 0);
+    if (!(aspect > 0) || !std::isfinite(aspect))
+        return report_.add(Code::RI_RANGE, "FrameAspectRatio", "it must be above 0");
+    state_.options.frame_aspect = aspect;
+}
+
+void OptionCalls::screen_window(const Call& call) {
+    if (!all_finite(call) || real(call, 0) == real(call, 1) || real(call, 2) == real(call, 3))
+        return report_.add(Code::RI_RANGE, "ScreenWindow", "it has no area");
+    state_.options.screen_window = {real(call, 0), real(call, 1), real(call, 2), real(call, 3)};
+}
+
+void OptionCalls::crop_window(const Call& call) {
+    std::array<double, 4> crop = {real(call, 0), real(call, 1), real(call, 2), real(call, 3)};
+    if (!all_finite(call) || crop[0] >= crop[1] || crop[2] >= crop[3])
+        return report_.add(Code::RI_RANGE, "CropWindow", "it has no area");
+    state_.options.crop = crop;
+}
+
+void OptionCalls::projection(const Call& call) {
+    Projection made;
+    std::string_view name = call.arguments[0].string();
+    made.perspective = name == "perspective";
+    if (!made.perspective && name != "orthographic" && name != "orthogonal" && !name.empty())
+        report_.not_done("Projection", "it is taken for \"orthographic\"");
+    if (const Parameter* fov = call.find("fov")) made.fov = double(fov->values.real());
+    if (made.perspective && !(made.fov > 0 && made.fov < 180)) {
+        report_.add(Code::RI_RANGE, "Projection", "fov lies not between 0 and 180 degrees");
+        made.fov = 90;
+    }
+    if (is_singular(state_.transform))
+        report_.add(Code::RI_RANGE, "Projection", "the transformation before it makes all flat");
+    else
+        made.from_camera = state_.transform;
+    state_.options.projection = made;
+    state_.transform = dmat4(1.0);
+}
+
+void OptionCalls::clipping(const Call& call) {
+    double near = real(call, 0), far = real(call, 1);
+    if (!(near < far))
+        return report_.add(Code::RI_RANGE, "Clipping", "the far plane is not behind the near one");
+    state_.options.near = std::max(near, 1e-10);
+    state_.options.far = far;
+}
+
+void OptionCalls::clipping_plane(const Call&) {
+    report_.not_done("ClippingPlane", "nothing is cut off");
+}
+
+void OptionCalls::depth_of_field(const Call& call) {
+    if (call.arguments[0].real() < 1e37f) report_.not_done("DepthOfField", "all is sharp");
+}
+
+void OptionCalls::shutter(const Call& call) {
+    if (!all_finite(call)) return report_.add(Code::RI_RANGE, "Shutter", "a time is not finite");
+    state_.options.shutter_open = real(call, 0);
+    state_.options.shutter_close = real(call, 1);
+}
+
+void OptionCalls::pixel_samples(const Call& call) {
+    double x = real(call, 0), y = real(call, 1);
+    if (!(x >= 1 && y >= 1 && x * y <= 65536))
+        return report_.add(Code::RI_RANGE, "PixelSamples", "both are from 1 to 256");
+    state_.options.samples = {x, y};
+}
+
+void OptionCalls::pixel_filter(const Call& call) {
+    if (call.arguments[0].function())
+        return report_.not_done("PixelFilter", "a function of the program's own is not called");
+    double width = real(call, 1), height = real(call, 2);
+    if (!(width > 0 && height > 0 && width <= 64 && height <= 64))
+        return report_.add(Code::RI_RANGE, "PixelFilter", "a width is not above 0");
+    state_.options.filter = std::string(call.arguments[0].string());
+    state_.options.filter_width = std::sqrt(width * height);
+}
+
+void OptionCalls::exposure(const Call& call) {
+    double gain = real(call, 0), gamma = real(call, 1);
+    if (!all_finite(call) || !(gain >= 0) || !(gamma > 0))
+        return report_.add(Code::RI_RANGE, "Exposure", "gain and gamma must be above 0");
+    state_.options.gain = gain;
+    state_.options.gamma = gamma;
+}
+
+void OptionCalls::imager(const Call& call) {
+    Binding made = shaders_.bind(call, 0, "imager");
+    state_.options.imagers.clear();
+    if (made) state_.options.imagers.push_back(std::move(made));
+}
+
+void OptionCalls::quantize(const Call& call) {
+    Quantization made{double(call.arguments[1].integer()), double(call.arguments[2].integer()),
+                      double(call.arguments[3].integer()), real(call, 4)};
+    (call.arguments[0].string() == "z" ? state_.options.depths : state_.options.colors) = made;
+}
+
+// A name with + goes beside the displays before it; one without replaces them.
+void OptionCalls::display(const Call& call) {
+    FileDisplay made;
+    std::string_view name = call.arguments[0].string();
+    made.added = name.starts_with('+');
+    made.name = std::string(made.added ? name.substr(1) : name);
+    made.type = std::string(call.arguments[1].string());
+    made.mode = std::string(call.arguments[2].string());
+    if (!made.added) state_.options.displays.clear();
+    state_.options.displays.push_back(std::move(made));
+}
+
+void OptionCalls::color_samples(const Call& call) {
+    auto to_rgb = call.arguments[0].floats();
+    if (to_rgb.empty() || to_rgb.size() % 3)
+        return report_.add(Code::RI_COUNTS, "ColorSamples", "its numbers are no triples");
+    state_.options.to_rgb.assign(to_rgb.begin(), to_rgb.end());
+}
+
+void OptionCalls::relative_detail(const Call& call) {
+    if (real(call, 0) >= 0) state_.options.relative_detail = real(call, 0);
+}
+
+// "a:&:b": & is what it was, @ the folders that we search anyway.
+void OptionCalls::option(const Call& call) {
+    if (call.arguments[0].string() != "searchpath") return;
+    for (const Parameter& parameter : call.parameters) {
+        std::vector<std::string> before = state_.options.search_paths[std::string(parameter.name)],
+                                 after;
+        for (const char* text : parameter.values.strings()) {
+            std::string_view rest = text;
+            while (!rest.empty()) {
+                // A colon behind one letter belongs to a drive's name.
+                size_t end = rest.find(':');
+                if (end == 1 && std::isalpha(static_cast<unsigned char>(rest[0])) &&
+                    rest.size() > 2 && (rest[2] == '/' || rest[2] == '\\'))
+                    end = rest.find(':', 2);
+                std::string folder(rest.substr(0, end));
+                rest = end == rest.npos ? "" : rest.substr(end + 1);
+                if (folder == "&")
+                    after.insert(after.end(), before.begin(), before.end());
+                else if (!folder.empty() && folder != "@")
+                    after.push_back(std::move(folder));
+            }
+        }
+        state_.options.search_paths[std::string(parameter.name)] = std::move(after);
+    }
+}
+
+}  // namespace kinora::ri

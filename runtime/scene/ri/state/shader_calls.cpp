@@ -1,0 +1,194 @@
+// runtime/scene/ri/state/shader_calls.cpp: shaders and lights of the current attributes.
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+#include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/state/shader_calls.h"
+
+namespace kinora::ri {
+namespace {
+
+// What requests call the shaders that they bind.
+struct ShaderRow {
+    Request request;
+    std::string_view type;
+    rsl::ShaderKind kind;
+    std::vector<Binding> Attributes::*layers;
+};
+const ShaderRow kShaders[] = {
+    {Request::Surface, "surface", rsl::ShaderKind::Surface, &Attributes::surfaces},
+    {Request::Displacement, "displacement", rsl::ShaderKind::Displacement,
+     &Attributes::displacements},
+    {Request::Deformation, "deformation", rsl::ShaderKind::Transformation,
+     &Attributes::deformations},
+    {Request::Atmosphere, "atmosphere", rsl::ShaderKind::Volume, &Attributes::atmospheres},
+    {Request::Interior, "interior", rsl::ShaderKind::Volume, &Attributes::interiors},
+    {Request::Exterior, "exterior", rsl::ShaderKind::Volume, &Attributes::exteriors},
+};
+
+rsl::ShaderKind kind_of(std::string_view type) {
+    for (const ShaderRow& row : kShaders)
+        if (row.type == type) return row.kind;
+    return type == "imager" ? rsl::ShaderKind::Imager : rsl::ShaderKind::Light;
+}
+
+bool names_nothing(std::string_view name) {
+    return name.empty() || name == "null";
+}
+
+rsl::CompileOptions compile_options(const ImportOptions& import) {
+    rsl::CompileOptions options;
+    options.include_directories = import.include_directories;
+    return options;
+}
+
+}  // namespace
+
+ShaderCalls::ShaderCalls(State& state, StateReport& report, Diagnostics& diagnostics)
+    : state_(state),
+      report_(report),
+      search_(compile_options(state.import), state.path.substr(0, state.path.rfind('/') + 1),
+              diagnostics) {}
+
+bool ShaderCalls::call(const Call& call) {
+    using R = Request;
+    using C = ShaderCalls;
+    static const Handlers<C> kHandlers = {
+        {R::LightSource, &C::light_source},
+        {R::AreaLightSource, &C::area_light_source},
+        {R::Illuminate, &C::illuminate},
+        {R::Surface, &C::surface},
+        {R::Displacement, &C::surface},
+        {R::Deformation, &C::surface},
+        {R::Atmosphere, &C::surface},
+        {R::Interior, &C::surface},
+        {R::Exterior, &C::surface},
+        {R::ShaderLayer, &C::shader_layer},
+        {R::ConnectShaderLayers, &C::co_shader},
+        {R::Shader, &C::co_shader},
+        {R::MakeTexture, &C::make_map},
+        {R::MakeBump, &C::make_map},
+        {R::MakeLatLongEnvironment, &C::make_map},
+        {R::MakeCubeFaceEnvironment, &C::make_cube_map},
+        {R::MakeShadow, &C::make_shadow},
+    };
+    return kHandlers.call(*this, call);
+}
+
+std::vector<std::string> ShaderCalls::folders(std::string_view kind) const {
+    std::string own = state_.path.substr(0, state_.path.rfind('/') + 1);
+    std::vector<std::string> all;
+    auto found = state_.options.search_paths.find(kind);
+    if (found != state_.options.search_paths.end())
+        for (std::string folder : found->second) {
+            if (!folder.ends_with('/')) folder += '/';
+            if (!folder.starts_with('/')) all.push_back(own + folder);
+            all.push_back(std::move(folder));
+        }
+    all.push_back(own);
+    if (!own.empty()) all.push_back("");
+    return all;
+}
+
+std::shared_ptr<const rsl::Shader> ShaderCalls::find(std::string_view name) {
+    return names_nothing(name) ? nullptr : search_.find(name, folders("shader"));
+}
+
+ShaderBinding ShaderCalls::binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader) {
+    ShaderBinding made{std::move(shader), {}, state_.to_camera(), call.where};
+    for (const Parameter& p : call.parameters) {
+        ShaderArgument argument{std::string(p.name), {}, {}};
+        for (const char* text : p.values.strings())
+            argument.strings.push_back(map_name(p.name, text, *made.shader));
+        if (p.declaration.type == Type::Color && !state_.options.to_rgb.empty()) {
+            dvec3 color = rgb_of(p.values, state_.options);
+            argument.numbers = {color.x, color.y, color.z};
+        } else {
+            for (float number : p.values.floats()) argument.numbers.push_back(double(number));
+            for (int number : p.values.integers()) argument.numbers.push_back(number);
+        }
+        made.arguments.push_back(std::move(argument));
+    }
+    return made;
+}
+
+// Null: the name is that of no shader, or of one that does nothing.
+Binding ShaderCalls::bind(const Call& call, size_t name_at, std::string_view kind) {
+    std::string_view name = call.arguments[name_at].string();
+    if (names_nothing(name)) return nullptr;
+    std::shared_ptr<const rsl::Shader> shader = find(name);
+    bool fits = shader && shader->kind == kind_of(kind);
+    if (!fits) {
+        std::string_view instead =
+            kind == "surface" ? "the default surface stands for it" : "it is left out";
+        if (report_.is_new(fmt::format("shader {} {}", kind, name)))
+            report_.add(Code::RI_SHADER_UNKNOWN, kind, name, instead);
+        return nullptr;
+    }
+    return std::make_shared<const ShaderBinding>(binding_of(call, std::move(shader)));
+}
+
+std::vector<Binding>* ShaderCalls::layers_of(std::string_view type) {
+    for (const ShaderRow& row : kShaders)
+        if (row.type == type) return &(state_.attributes.*row.layers);
+    return nullptr;
+}
+
+void ShaderCalls::surface(const Call& call) {
+    auto row = std::ranges::find(kShaders, call.request, &ShaderRow::request);
+    std::vector<Binding>& layers = state_.attributes.*row->layers;
+    layers.clear();
+    if (Binding made = bind(call, 0, row->type)) layers.push_back(std::move(made));
+    if (call.request == Request::Surface)
+        state_.attributes.no_surface = call.arguments[0].string() == "null";
+}
+
+void ShaderCalls::shader_layer(const Call& call) {
+    std::vector<Binding>* layers = layers_of(call.arguments[0].string());
+    if (!layers)
+        return report_.add(Code::RI_RANGE, "ShaderLayer", "there is no such type of shaders");
+    if (Binding made = bind(call, 1, call.arguments[0].string()))
+        layers->push_back(std::move(made));
+}
+
+void ShaderCalls::co_shader(const Call& call) {
+    report_.not_done(call.request == Request::Shader ? "Shader" : "ConnectShaderLayers",
+                     "shaders are bound one by one");
+}
+
+// Null: no light of that name was found.
+Light ShaderCalls::light_of(const Call& call) {
+    std::string_view name = call.arguments[0].string();
+    std::shared_ptr<const rsl::Shader> shader = find(name);
+    if (!shader || shader->kind != rsl::ShaderKind::Light) {
+        if (!names_nothing(name))
+            report_.add(Code::RI_SHADER_UNKNOWN, "light", name, "it is left out");
+        return nullptr;
+    }
+    auto made = std::make_shared<LightBinding>();
+    made->shader = binding_of(call, std::move(shader));
+    made->number = call.arguments[1].integer();
+    made->shadows = state_.attributes.light_shadows;
+    made->samples = state_.attributes.light_samples;
+    return made;
+}
+
+void ShaderCalls::light_source(const Call& call) {
+    Light made = light_of(call);
+    if (!made) return;
+    lights_[made->number] = made;
+    state_.attributes.lights.push_back(std::move(made));
+}
+
+void ShaderCalls::area_light_source(const Call& call) {
+    state_.attributes.area_light = light_of(call);
+}
+
+void ShaderCalls::illuminate(const Call& call) {
+    auto found = lights_.find(call.arguments[0].integer());
+    if (found == lights_.end()) return;  // one that was left out, as was said
+    std::erase(state_.attributes.lights, found->second);
+    if (call.arguments[1].integer()) state_.attributes.lights.push_back(found->second);
+}
+
+}  // namespace kinora::ri

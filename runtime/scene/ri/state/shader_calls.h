@@ -1,0 +1,48 @@
+// runtime/scene/ri/state/shader_calls.h: shaders, lights and maps of the current attributes.
+#pragma once
+
+#include "runtime/scene/ri/state/shader_search.h"
+#include "runtime/scene/ri/state/state.h"
+
+namespace kinora::ri {
+
+class ShaderCalls {
+  public:
+    ShaderCalls(State& state, StateReport& report, Diagnostics& diagnostics);
+
+    // False: the request is none of these.
+    bool call(const Call& call);
+
+    // The shader that the call names by its argument `name_at`. Null: the name is that of no
+    // shader, or of one that does nothing.
+    Binding bind(const Call& call, size_t name_at, std::string_view kind);
+    std::shared_ptr<const rsl::Shader> find(std::string_view name);
+    // Where files of a kind are looked for ("shader", "texture", "archive"), "" or ending in '/'.
+    std::vector<std::string> folders(std::string_view kind) const;
+
+  private:
+    void light_source(const Call& call);
+    void area_light_source(const Call& call);
+    void illuminate(const Call& call);
+    void surface(const Call& call);
+    void shader_layer(const Call& call);
+    void co_shader(const Call& call);
+    void make_map(const Call& call);
+    void make_cube_map(const Call& call);
+    void make_shadow(const Call& call);
+    std::vector<Binding>* layers_of(std::string_view type);
+    ShaderBinding binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader);
+    Light light_of(const Call& call);
+    std::string map_name(std::string_view parameter, const std::string& name,
+                         const rsl::Shader& shader);
+    std::string picture_file(const std::string& name) const;
+
+    State& state_;
+    StateReport& report_;
+    ShaderSearch search_;
+    std::map<int, Light> lights_;
+    std::map<std::string, std::string, std::less<>> maps_;  // that the file makes: their pictures
+    std::set<std::string, std::less<>> shadows_;            // that it makes
+};
+
+}  // namespace kinora::ri
