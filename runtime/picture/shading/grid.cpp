@@ -95,7 +95,10 @@ class HitSource : public PointSource {
                                 grid.columns.begin() + kColVarying, [](float* c) { return c; });
     }
 
-    void fill(const PointColumns&) override {
+    // Surfaces with parameters of their own have other slopes of s and t.
+    bool fills_constants() const override { return true; }
+    void fill(const PointColumns& columns) override {
+        fill_constants(columns);
         if (P_) positions();
         if (I_ && P_ && of_eye())
             share_positions();

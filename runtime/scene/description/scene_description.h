@@ -116,7 +116,7 @@ struct VertexAttribute {
 inline constexpr const char* kLinearColor = "COLOR:linear";
 
 // u and v of a surface that has parameters of its own; stride 2.
-inline constexpr const char* kSurfaceParameters = "UV";
+inline constexpr const char* kSurfaceParameters = "surface:uv";
 
 // Triangles that wear one material.
 struct PrimitiveGroup {

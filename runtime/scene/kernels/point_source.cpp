@@ -8,10 +8,14 @@
 
 namespace kinora {
 
-void fill_columns(PointSource& source, const PointColumns& columns) {
+void fill_constants(const PointColumns& columns) {
     for (auto [which, value] : kConstantColumns)
         if (float* row = columns.rows[which]) std::fill_n(row, columns.count, value);
+}
+
+void fill_columns(PointSource& source, const PointColumns& columns) {
     source.fill(columns);
+    if (!source.fills_constants()) fill_constants(columns);
     for (float* row : columns.rows)
         if (row && columns.count > 0)
             std::fill(row + columns.count, row + jit::padded(columns.count),

@@ -16,9 +16,13 @@ struct PointColumns {
 class PointSource {
   public:
     virtual ~PointSource() = default;
-    // Fills the rows for all points; those of kConstantColumns are, and may be filled otherwise.
+    // Fills the rows for all points but what is the same everywhere (kConstantColumns).
     virtual void fill(const PointColumns& columns) = 0;
+    // Whether fill() fills these too, since some are not the same everywhere.
+    virtual bool fills_constants() const { return false; }
 };
+
+void fill_constants(const PointColumns& columns);
 
 // All rows that are not null, with padding lanes: copies of the last point.
 void fill_columns(PointSource& source, const PointColumns& columns);

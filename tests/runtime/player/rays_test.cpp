@@ -94,6 +94,7 @@ TEST(Rays, AreSeenWhereTheCameraSeesThem) {
 TEST(Rays, BehindTheCameraAreNotSeen) {
     raytrace::Camera camera;
     camera.width = 64, camera.height = 36;
+    camera.axis = {32, 18};
     camera.raster_dx = {0.05, 0, 0};
     camera.raster_dy = {0, -0.05, 0};
     EXPECT_FALSE(seen_segment(camera, dvec3(0.0), {0, 0, -1}, {3, 1, -2}));
@@ -111,6 +112,7 @@ TEST(Rays, AreDrawnAlongTheirLine) {
     raytrace::Camera camera;
     camera.orthographic = true;
     camera.width = 64, camera.height = 36;
+    camera.axis = {32, 18};
     camera.raster_dx = {1, 0, 0};
     camera.raster_dy = {0, -1, 0};
     std::vector<uint8_t> rgba(4 * 64 * 36, 0);

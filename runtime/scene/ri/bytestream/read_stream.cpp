@@ -157,8 +157,11 @@ bool begins_as_rib(std::string_view bytes) {
         if (bytes.substr(0, end).find("RIB") != bytes.npos) return true;
         bytes.remove_prefix(end);
     }
-    Token first = Lexer(bytes).take();
-    return first.kind == TokenKind::Word && is_request(first.text);
+    Lexer lexer(bytes);
+    Token first = lexer.take();
+    if (first.kind != TokenKind::Word || !is_request(first.text)) return false;
+    // Other files say of what version they are, too: Git's pointers do.
+    return first.text != "version" || lexer.take().kind == TokenKind::Number;
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST(Nurbs, ParametersKeepTheirRange) {
     CurvedSurface s = random_nurbs(spline(3, {0, 0, 0, 1, 2, 3, 3, 3}, 0.5, 2.5),
                                    spline(2, {5, 5, 9, 9}, 5, 9), 3, false);
     Tessellation t = tessellate(s, seen(1, 200));
-    const VertexAttribute &uv = *attribute(t, "UV"), &st = *attribute(t, "TEXCOORD");
+    const VertexAttribute &uv = *attribute(t, kSurfaceParameters), &st = *attribute(t, "TEXCOORD");
     for (size_t k = 0; k < uv.corners.size(); ++k) {
         const float* p = &uv.values[2 * uv.corners[k]];
         const float* q = &st.values[2 * st.corners[k]];
@@ -150,7 +150,7 @@ TEST(Nurbs, VaryingValuesAreCountedByKnotIntervals) {
     s.variables.push_back({"a", VariableRate::Varying, 1, {0, 1, 2, 3, 0, 1, 2, 3}});
     s.variables.push_back({"b", VariableRate::Uniform, 1, {7, 8, 9}});
     Tessellation t = tessellate(s, seen(1, 300));
-    const VertexAttribute &uv = *attribute(t, "UV"), &a = *attribute(t, "a"),
+    const VertexAttribute &uv = *attribute(t, kSurfaceParameters), &a = *attribute(t, "a"),
                           &b = *attribute(t, "b");
     for (size_t k = 0; k < a.corners.size(); ++k) {
         double u = uv.values[2 * uv.corners[k]], value = a.values[a.corners[k]];
@@ -215,7 +215,7 @@ TEST(Trims, CurvedSurfacesAreCutWithinThePixelError) {
     Tessellation t = tessellate(s, seen(1, 600));
     expect_sound(t);
     EXPECT_GT(least_agreement(t), 0.95);
-    const VertexAttribute& uv = *attribute(t, "UV");
+    const VertexAttribute& uv = *attribute(t, kSurfaceParameters);
     for (size_t k = 0; k < uv.corners.size(); ++k) {
         dvec2 p(uv.values[2 * uv.corners[k]], uv.values[2 * uv.corners[k] + 1]);
         EXPECT_LE(glm::length(p - dvec2(0.5)), 0.2 + 1e-6);

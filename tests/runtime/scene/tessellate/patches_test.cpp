@@ -195,7 +195,7 @@ TEST(Patches, SmoothMeshesShareNormalsAndCreasesDoNot) {
     Tessellation t = tessellate(roof, seen(2, 100));
     EXPECT_EQ(t.positions.size(), 6u);
     EXPECT_EQ(attribute(t, "NORMAL")->values.size(), 3 * 8u);
-    EXPECT_EQ(attribute(t, "UV")->values.size(), 2 * 6u);
+    EXPECT_EQ(attribute(t, kSurfaceParameters)->values.size(), 2 * 6u);
 }
 
 TEST(Patches, CollapsedEdgesArePointsWithNormals) {
@@ -232,7 +232,7 @@ TEST(Patches, VariablesFollowTheirRates) {
     };
     CurvedSurface index = s;  // the same blend, of the points' numbers
     for (size_t k = 0; k < 28; ++k) index.points[k] = {double(k), 0, 0, 1};
-    const VertexAttribute& uv = *attribute(t, "UV");
+    const VertexAttribute& uv = *attribute(t, kSurfaceParameters);
     for (size_t k = 0; k < t.group.triangles.size(); ++k) {
         double u = uv.values[2 * uv.corners[k]], v = uv.values[2 * uv.corners[k] + 1];
         double middle = uv.values[2 * uv.corners[k - k % 3]] +
@@ -250,7 +250,7 @@ TEST(Patches, TextureCoordinatesAndNormalsCanBeGiven) {
     s.variables.push_back({"N", VariableRate::Varying, 3, {0, 0, 2, 0, 0, 2, 0, 0, 2, 0, 0, 2}});
     s.reversed = true;
     Tessellation t = tessellate(s, seen(4, 100));
-    const VertexAttribute &st = *attribute(t, "TEXCOORD"), &uv = *attribute(t, "UV");
+    const VertexAttribute &st = *attribute(t, "TEXCOORD"), &uv = *attribute(t, kSurfaceParameters);
     for (size_t k = 0; k < t.group.triangles.size(); ++k) {
         EXPECT_EQ(normal_at(t, k), dvec3(0, 0, 1));
         EXPECT_NEAR(st.values[2 * st.corners[k]], 5 + uv.values[2 * uv.corners[k]], 1e-5);

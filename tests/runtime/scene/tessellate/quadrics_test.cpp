@@ -221,7 +221,7 @@ TEST(Quadrics, ParametersAndTextureCoordinatesAreThoseOfTheirPlaces) {
     const double corners[8] = {0, 1, 2, 1, 0, 4, 2, 4};
     std::copy(corners, corners + 8, s.corners);
     Tessellation t = tessellate(s, seen(2, 300));
-    const VertexAttribute &uv = *attribute(t, "UV"), &st = *attribute(t, "TEXCOORD");
+    const VertexAttribute &uv = *attribute(t, kSurfaceParameters), &st = *attribute(t, "TEXCOORD");
     for (size_t k = 0; k < t.group.triangles.size(); ++k) {
         const float* p = &uv.values[2 * uv.corners[k]];
         const float* q = &st.values[2 * st.corners[k]];

@@ -95,7 +95,7 @@ TEST(Subdivide, RegularFacesAreBicubicSplines) {
     Tessellation t = subdivide(s, seen(4, 300));
     expect_sound(t);
     ASSERT_GT(triangle_count(t), 500u);
-    const VertexAttribute &uv = *attribute(t, "UV"), &f = *attribute(t, "face"),
+    const VertexAttribute &uv = *attribute(t, kSurfaceParameters), &f = *attribute(t, "face"),
                           &h = *attribute(t, "height");
     for (size_t k = 0; k < t.group.triangles.size(); ++k) {
         uint32_t number = uint32_t(f.values[f.corners[k]]), i = number % (n - 1),
@@ -121,7 +121,7 @@ TEST(Subdivide, TheErrorIsThatOfPixels) {
         EXPECT_LE(t.error, 0.25);
         EXPECT_GE(triangle_count(t), before);
         before = triangle_count(t);
-        const VertexAttribute& uv = *attribute(t, "UV");
+        const VertexAttribute& uv = *attribute(t, kSurfaceParameters);
         for (size_t k = 0; k < t.group.triangles.size(); k += 3) {
             auto [a, b, c] = triangle(t, k);
             // The face is found by the middle: patches are as wide as units there.
@@ -210,7 +210,7 @@ TEST(Subdivide, OtherFacesBecomeQuads) {
     t = subdivide(s, seen(1, 500));
     EXPECT_EQ(euler(t), 2);
     EXPECT_GT(least_agreement(t), 0.9);
-    const VertexAttribute &uv = *attribute(t, "UV"), &c = *attribute(t, "corner");
+    const VertexAttribute &uv = *attribute(t, kSurfaceParameters), &c = *attribute(t, "corner");
     std::vector<bool> seen_value(s.indices.size(), false);
     for (size_t k = 0; k < t.group.triangles.size(); ++k) {
         const float *at = &uv.values[2 * uv.corners[k]], value = c.values[c.corners[k]];
