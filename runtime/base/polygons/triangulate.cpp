@@ -1,6 +1,6 @@
-// runtime/base/polygons/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are first
-// joined to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what touches
-// itself then is taken apart.
+// runtime/base/polygons/triangulate.cpp: ear clipping on the plane nearest the polygon; holes are
+// first joined to the outline by bridges (Eberly, "Triangulation by Ear Clipping"), and what
+// touches itself then is taken apart.
 #include "runtime/base/polygons/triangulate.h"
 
 #include <algorithm>

@@ -113,7 +113,8 @@ void declare_output(CLI::App& app, RenderOptions& o) {
 void declare_input(CLI::App& app, Given& given, RenderOptions& o) {
     app.footer(std::string(kExitCodeHelp) + "\n" + kEnvironmentHelp);
     app.set_version_flag("--version", app.get_name() + " " KINORA_VERSION);
-    app.add_option("scene", o.scene, "the scene: .dae, .zae, .kmz, .gltf, .glb or .rib; or a session");
+    app.add_option("scene", o.scene,
+                   "the scene: .dae, .zae, .kmz, .gltf, .glb or .rib; or a session");
     app.add_option("--session", given.session,
                    "FILE.kinora of kinora-play: its scene, camera, time and edits; other options "
                    "go before its own");

@@ -93,14 +93,15 @@ TEST(RibBinary, ArraysOfSingles) {
               (Texts{"MotionBegin []", "Sides 1i"}));
     EXPECT_EQ(calls_of("Color[\200\001\244\077\000\000\000 .25]"s), Texts{"Color [1 0.5 0.25]"});
     EXPECT_EQ(calls_of("SubdivisionMesh\"catmull-clark\"\310\001\100\100\000\000[0 1 2]"
-                    "\310\000\310\000\310\000\310\000\"P\"[0 0 0 1 0 0 0 1 0]"s)
+                       "\310\000\310\000\310\000\310\000\"P\"[0 0 0 1 0 0 0 1 0]"s)
                   .size(),
               1u);
 }
 
 TEST(RibBinary, FormsMixAndCommentsHoldAnything) {
-    EXPECT_EQ(calls_of("# \246\001\377\n\314\001\225Sides\246\001 2#\315\r\246\001\200\001Matte 1"s),
-              (Texts{"Sides 2i", "Sides 1i", "Matte 1i"}));
+    EXPECT_EQ(
+        calls_of("# \246\001\377\n\314\001\225Sides\246\001 2#\315\r\246\001\200\001Matte 1"s),
+        (Texts{"Sides 2i", "Sides 1i", "Matte 1i"}));
 }
 
 TEST(RibBinary, TheEndOfInputEnds) {

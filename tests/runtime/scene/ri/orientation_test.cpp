@@ -77,9 +77,10 @@ TEST_F(RiOrientation, OutsideInsideAndReverse) {
         expect_near(normal(mirror + "Orientation \"outside\" " + kFarBall), kToEye, .01);
         expect_near(normal(mirror + "Orientation \"inside\" " + kFarBall), kFromEye, .01);
         expect_near(normal(mirror + "ReverseOrientation " + kFarBall), kFromEye, .01);
-        expect_near(normal(mirror + "ReverseOrientation ReverseOrientation " + kFarBall), kToEye, .01);
-        expect_near(normal(mirror + "Orientation \"inside\" ReverseOrientation " + kFarBall), kToEye,
+        expect_near(normal(mirror + "ReverseOrientation ReverseOrientation " + kFarBall), kToEye,
                     .01);
+        expect_near(normal(mirror + "Orientation \"inside\" ReverseOrientation " + kFarBall),
+                    kToEye, .01);
         expect_near(normal(mirror + "Orientation \"inside\" " + kClockwise), kFlatAway);
         expect_near(normal(mirror + "Orientation \"inside\" " + kPatch), kFlat);
     }
@@ -96,7 +97,8 @@ TEST_F(RiOrientation, HandsAreAbsolute) {
 }
 
 TEST_F(RiOrientation, AttributeBlocksRestoreIt) {
-    expect_near(normal("AttributeBegin Orientation \"inside\" AttributeEnd " + kFarBall), kToEye, .01);
+    expect_near(normal("AttributeBegin Orientation \"inside\" AttributeEnd " + kFarBall), kToEye,
+                .01);
     expect_near(normal("TransformBegin Orientation \"inside\" TransformEnd " + kFarBall), kFromEye,
                 .01);
 }
