@@ -77,6 +77,7 @@ class Render {
     int run() {
         set_thread_count(options_.threads);
         ready_heap(heap_of_scene(options_.scene));
+        options_.color = encoding_of(options_);  // once: a look into the file
         int code = load();
         printer_.summarize();
         if (code == kExitOk) code = printer_.exit_code(result());

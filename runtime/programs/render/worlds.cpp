@@ -22,7 +22,7 @@ std::vector<RenderOptions> runs_of_worlds(const RenderOptions& options) {
         runs.back().world = int(w);
         runs.back().frames = {{int64_t(numbers[w])}};
     }
-    if (runs.empty() && numbers.empty()) runs.push_back(options);  // which says what is wrong
+    if (runs.empty() && numbers.empty()) runs.push_back(options);  // its import reports why
     if (runs.empty())
         std::fprintf(stderr,
                      "kinora-render: error: '%s' has %zu pictures, none of them of --frames\n",
