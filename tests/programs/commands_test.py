@@ -51,7 +51,7 @@ def commands(body):
 class Commands(ProgramTest):
     def setUp(self):
         super().setUp()
-        for name in ("assets", "tests", "scripts", "docs"):
+        for name in ("assets", "runtime", "tests", "scripts", "docs"):
             (self.folder / name).symlink_to(SOURCE / name)
         (self.folder / "build").mkdir()
         (self.folder / "build/release").symlink_to(BIN.parent)

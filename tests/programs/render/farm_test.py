@@ -250,7 +250,7 @@ class Hosts(Run):
         return [file for file in self.folder.glob(".*.tmp")]
 
     def killed(self, host):
-        """What is left of a run that was killed while it wrote a picture."""
+        """What is left of a run that was killed while it wrote a picture, or two."""
         before = set(self.temporaries())
         for _ in range(100):
             process = self.on(host, MATTE, "-o", self.folder / "f.####.png", "--size", "640x480", "--quality", "draft",
@@ -259,7 +259,7 @@ class Hosts(Run):
             process.kill()  # --kill-child: the program, too
             process.communicate(timeout=TIMEOUT)
             if left := set(self.temporaries()) - before:
-                return left.pop()
+                return sorted(left)
         self.fail("whatever the moment, nothing was left")
 
     def test_both_finish_and_nothing_is_left(self):
@@ -272,18 +272,20 @@ class Hosts(Run):
         self.assertEqual(self.pictures(), self.pictures(whole))
 
     def test_names_tell_who_wrote_and_age_alone_removes(self):
-        left = [self.killed("east"), self.killed("west.farm")]
+        east, west = self.killed("east"), self.killed("west.farm")
         boot = Path("/proc/sys/kernel/random/boot_id").read_text()[:8]
-        for file, host in zip(left, ("east", "west-farm")):
-            self.assertRegex(file.name, rf"^\.f\.0\d+\.png\.kinora\.{host}\.{boot}\.1\.[0-9a-f]{{16}}\.tmp$")
+        for left, host in ((east, "east"), (west, "west-farm")):
+            for file in left:
+                self.assertRegex(file.name, rf"^\.f\.0\d+\.png\.kinora\.{host}\.{boot}\.1\.[0-9a-f]{{16}}\.tmp$")
         again = (MATTE, "-o", self.folder / "a.png", *SMALL, "-q")
         self.assertEqual(self.ended(self.on("west.farm", *again))[0], 0)
-        self.assertEqual(sorted(self.temporaries()), sorted(left))  # whose process number is that of the new run
+        self.assertEqual(sorted(self.temporaries()), sorted(east + west))  # whose process number is the new run's
         day = 24 * 3600
-        os.utime(left[0], (time.time() - day - 60,) * 2)
-        os.utime(left[1], (time.time() - day + 600,) * 2)
+        for left, age in ((east, day + 60), (west, day - 600)):
+            for file in left:
+                os.utime(file, (time.time() - age,) * 2)
         self.assertEqual(self.ended(self.on("north", *again))[0], 0)
-        self.assertEqual(self.temporaries(), left[1:])
+        self.assertEqual(sorted(self.temporaries()), west)
 
 
 if __name__ == "__main__":
