@@ -31,7 +31,7 @@ class RenderSession : public Session {
   public:
     RenderSession()
         : request_(program_request()),
-          calls_(request_.scene, import_options(request_), judged(request_, diagnostics_),
+          calls_(request_.scene, import_options(request_), {}, judged(request_, diagnostics_),
                  [this](SceneDescription&& world) { return render(std::move(world)); }),
           files_(diagnostics_) {}
 

@@ -17,7 +17,7 @@ bool FindingPrinter::admit(const Finding& finding) {
                                         : Severity::Warning;
     bool asked_for = finding.info == always_ && !options_.quiet;
     bool first =
-        printed_
+        (told_ ? *told_ : own_told_)
             .emplace(finding.info->code, finding.where.file, finding.where.begin, finding.message)
             .second;
     if (!first || finding.severity == Severity::Off) return false;

@@ -26,6 +26,10 @@ struct FindingOptions {
 
 class FindingPrinter {
   public:
+    using Key = std::tuple<std::string_view, FileId, uint32_t, std::string>;
+    // What was printed of some scenes that share their files.
+    using Told = std::set<Key>;
+
     // `scene` is what kinora-validate would be called with. Findings of `always` are printed
     // whatever their severity, unless quiet.
     FindingPrinter(const FindingOptions& options, std::string scene,
@@ -34,6 +38,8 @@ class FindingPrinter {
 
     // Prints to stderr what is new: each finding once, as FindingLines has room for it.
     void print(const Diagnostics& diagnostics);
+    // What is in `told` is not printed again, and what is printed comes into it.
+    void share(Told* told) { told_ = told; }
     // Says how many were not printed since it last did.
     void summarize();
 
@@ -48,8 +54,6 @@ class FindingPrinter {
     int exit_code(int code) const;
 
   private:
-    using Key = std::tuple<std::string_view, FileId, uint32_t, std::string>;
-
     bool admit(const Finding& finding);
 
     FindingOptions options_;
@@ -57,7 +61,8 @@ class FindingPrinter {
     const FindingInfo* always_;
     FindingLines lines_;
     size_t seen_ = 0;  // findings looked at so far
-    std::set<Key> printed_;
+    Told own_told_;
+    Told* told_ = nullptr;            // of others
     size_t for_validator_ = 0;        // schema, names, style
     std::array<size_t, 5> counts_{};  // by severity
     bool missing_ = false;

@@ -67,12 +67,17 @@ bool measures(const RenderOptions& options) {
 
 class Render {
   public:
-    explicit Render(const RenderOptions& options)
+    // `world`, which the scene is instead of the file's, and `told` may be null.
+    explicit Render(const RenderOptions& options, ReadWorld* world = nullptr,
+                    FindingPrinter::Told* told = nullptr)
         : options_(options),
           asked_(options),
           scene_(options, measures(options) ? OpenScene::Keep::Source : OpenScene::Keep::Nothing),
+          world_(world),
           printer_(options.findings, options.scene),
-          progress_(options.progress, 1) {}
+          progress_(options.progress, 1) {
+        if (told) printer_.share(told);
+    }
 
     int run() {
         set_thread_count(options_.threads);
@@ -111,6 +116,7 @@ class Render {
     }
 
     int load();
+    SceneError read();
     void flush_findings();
     void dump() const;
     void print_explained();
@@ -141,6 +147,7 @@ class Render {
     RenderOptions options_;      // with the settings that --target-ms and --target-error choose
     const RenderOptions asked_;  // without
     OpenScene scene_;
+    ReadWorld* world_;
     FindingPrinter printer_;
     std::optional<TargetedFrames> targeted_;
     PlacedCamera placed_;
@@ -162,14 +169,23 @@ void Render::flush_findings() {
     printer_.print(scene_.diagnostics());
 }
 
+// A world of a film may be read in the midst of its file, whose texts are still needed.
+SceneError Render::read() {
+    if (!world_) return scene_.read();
+    const SceneError unread = scene_.take(std::move(world_->scene), world_->found.files.fork());
+    for (const Finding& finding : world_->found.findings())
+        scene_.diagnostics().add(*finding.info, finding.where, finding.message) = finding;
+    return unread;
+}
+
 int Render::load() {
     Stopwatch watch;
-    const SceneError unread = scene_.read();
+    const SceneError unread = read();
     if (unread == SceneError::Unreadable || unread == SceneError::Internal) {
         flush_findings();
         return unread == SceneError::Internal ? exit_code_of(unread) : report_unreadable();
     }
-    load_ms_ = watch.restart();
+    load_ms_ = watch.restart() + (world_ ? world_->ms : 0);
     if (unread != SceneError::None) {
         flush_findings();
         std::fprintf(stderr, "kinora-render: no clip '%s'; --list clips shows them\n",
@@ -394,7 +410,7 @@ int Render::frames() {
         hash_inputs(scene_.diagnostics().files, *scene_.scene().description, options_.scene);
     if (options_.frame_target.any())
         if (int code = choose_settings_for_target()) return code;
-    scene_.diagnostics().files.cut_long_lines();
+    if (!world_) scene_.diagnostics().files.cut_long_lines();
     scene_.ready_frames(&g_signal);
     FrameSettings& settings = scene_.settings();
     if (const auto& session = options_.session) {
@@ -584,11 +600,18 @@ bool names_file(const char* word) {
 
 // One picture after another; the run ends with the first that fails, unless --keep-going is given.
 static int render_worlds(const RenderOptions& options) {
+    const std::optional<std::vector<int>> worlds = worlds_to_render(options);
+    if (!worlds) return kExitUsage;
+    if (worlds->empty()) return Render(options).run();  // which says why
     FrameCodes codes(options.keep_going);
-    std::vector<RenderOptions> runs = runs_of_worlds(options);
-    for (const RenderOptions& run : runs)
-        if (!codes.go_on_after(Render(run).run())) break;
-    return runs.empty() ? int(kExitUsage) : codes.code();
+    FindingPrinter::Told told;
+    Diagnostics found;
+    const bool read = read_worlds(options, *worlds, found, [&](ReadWorld world) {
+        return codes.go_on_after(Render(world.options, &world, &told).run());
+    });
+    if (read) return codes.code();
+    FindingPrinter(options.findings, options.scene).print(found);
+    return kExitUnreadable;
 }
 
 }  // namespace kinora

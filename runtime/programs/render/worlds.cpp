@@ -4,30 +4,47 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "runtime/base/stats.h"
 #include "runtime/kinora/frame_list.h"
+#include "runtime/kinora/open_scene.h"
 #include "runtime/scene/ri/import/import.h"
+#include "runtime/scene/ri/import/merge_meshes.h"
 
 namespace kinora {
 
-std::vector<RenderOptions> runs_of_worlds(const RenderOptions& options) {
-    std::vector<int> numbers = worlds_of(options.scene);
+std::optional<std::vector<int>> worlds_to_render(const RenderOptions& options) {
+    const std::vector<int> numbers = worlds_of(options.scene);
     const bool all = !options.output.empty() && OutputName(options.output).has_token();
-    std::vector<RenderOptions> runs;
-    for (size_t w = 0; w < numbers.size(); ++w) {
-        bool last = w + 1 == numbers.size();
-        bool wanted =
-            options.frames ? std::ranges::count(*options.frames, numbers[w]) > 0 : all || last;
-        if (!wanted) continue;
-        runs.push_back(options);
-        runs.back().world = int(w);
-        runs.back().frames = {{int64_t(numbers[w])}};
+    std::vector<int> worlds;
+    for (int w = 0; w < int(numbers.size()); ++w) {
+        const bool last = w + 1 == int(numbers.size());
+        const int64_t number = numbers[size_t(w)];
+        if (options.frames ? std::ranges::count(*options.frames, number) > 0 : all || last)
+            worlds.push_back(w);
     }
-    if (runs.empty() && numbers.empty()) runs.push_back(options);  // its import reports why
-    if (runs.empty())
-        std::fprintf(stderr,
-                     "kinora-render: error: '%s' has %zu pictures, none of them of --frames\n",
-                     options.scene.c_str(), numbers.size());
-    return runs;
+    if (!worlds.empty() || numbers.empty()) return worlds;
+    std::fprintf(stderr, "kinora-render: error: '%s' has %zu pictures, none of them of --frames\n",
+                 options.scene.c_str(), numbers.size());
+    return std::nullopt;
+}
+
+bool read_worlds(const RenderOptions& options, const std::vector<int>& worlds, Diagnostics& found,
+                 const std::function<bool(ReadWorld world)>& render) {
+    judge_by(options, found);
+    int next = 0;
+    Stopwatch watch;
+    auto take = [&](SceneDescription&& scene) {
+        const int index = next++;
+        if (std::ranges::count(worlds, index) == 0) return true;
+        merge_meshes(scene);
+        ReadWorld world{options, std::move(scene), watch.ms(), found};
+        world.options.world = index;
+        world.options.frames = {{int64_t(world.scene.file_picture->number)}};
+        const bool go_on = render(std::move(world));
+        watch.restart();
+        return go_on && index != worlds.back();
+    };
+    return read_rib(options.scene, import_options(options), found, take, {.worlds = worlds});
 }
 
 }  // namespace kinora

@@ -36,7 +36,6 @@ struct ImportOptions {
     std::optional<UpAxis> up_axis;                 // instead of the file's
     std::optional<double> meter;                   // instead of the file's
     std::vector<std::string> include_directories;  // for #include in shaders
-    static constexpr int kNoWorld = 1 << 30;       // all are without what is in them
     int world = -1;            // of a RIB file with several pictures, from 0; -1: the last
     double picture_scale = 1;  // of a RIB file's own picture size: how fine curves are
 };

@@ -40,14 +40,14 @@ bool is_rib(const SceneSource& source) {
 }
 
 bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnostics& diagnostics,
-              const std::function<bool(SceneDescription&& world)>& take) {
+              const std::function<bool(SceneDescription&& world)>& take, ri::WorldChoice drawn) {
     std::optional<std::string> content =
         source.bytes ? std::string(*source.bytes) : read_regular_file(source.path);
     if (!content) {
         diagnostics.report(Code::RIB_UNREADABLE, Location{}, source.path);
         return false;
     }
-    ri::Interpretation reading(source.path, options, diagnostics, take);
+    ri::Interpretation reading(source.path, options, std::move(drawn), diagnostics, take);
     bool sound = reading.read(source.path, std::move(*content));
     reading.finish();
     return sound;
@@ -55,29 +55,29 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
 
 std::vector<int> worlds_of(const SceneSource& source) {
     std::vector<int> numbers;
-    ImportOptions options;
-    options.world = ImportOptions::kNoWorld;
     Diagnostics unheard;  // they come when the world itself is read
-    read_rib(source, options, unheard, [&](SceneDescription&& world) {
+    auto count = [&](SceneDescription&& world) {
         numbers.push_back(world.file_picture->number);
         return true;
-    });
+    };
+    read_rib(source, {}, unheard, count, {.counts_alone = true, .worlds = {}});
     return numbers;
 }
 
 std::optional<SceneDescription> import_rib(const SceneSource& source, const ImportOptions& options,
                                            Diagnostics& diagnostics) {
-    ImportOptions wanted = options;
-    if (wanted.world < 0) wanted.world = std::max(int(worlds_of(source).size()) - 1, 0);
+    const int wanted =
+        options.world < 0 ? std::max(int(worlds_of(source).size()) - 1, 0) : options.world;
     std::optional<SceneDescription> found;
     int seen = 0;
-    bool sound = read_rib(source, wanted, diagnostics, [&](SceneDescription&& world) {
+    auto take = [&](SceneDescription&& world) {
         found = std::move(world);
-        return ++seen <= wanted.world;
-    });
-    if (sound && seen <= wanted.world) {
+        return ++seen <= wanted;
+    };
+    const bool sound = read_rib(source, options, diagnostics, take, {.worlds = {wanted}});
+    if (sound && seen <= wanted) {
         if (seen)
-            diagnostics.report(Code::RIB_WORLD_UNKNOWN, Location{}, wanted.world + 1, seen);
+            diagnostics.report(Code::RIB_WORLD_UNKNOWN, Location{}, wanted + 1, seen);
         else
             diagnostics.report(Code::RIB_NO_WORLD, Location{}, source.path);
         found.reset();

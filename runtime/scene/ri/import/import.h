@@ -9,6 +9,7 @@
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/description/scene_source.h"
+#include "runtime/scene/ri/state/world_choice.h"
 
 namespace kinora {
 
@@ -19,7 +20,8 @@ bool is_rib(const SceneSource& source);
 // False: the file cannot be read. Archives and shaders are looked for in the file's folder and
 // along its search paths.
 bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnostics& diagnostics,
-              const std::function<bool(SceneDescription&& world)>& take);
+              const std::function<bool(SceneDescription&& world)>& take,
+              ri::WorldChoice drawn = {});
 
 // The frame number of each world block, in order.
 std::vector<int> worlds_of(const SceneSource& source);

@@ -8,9 +8,9 @@
 namespace kinora::ri {
 
 Interpretation::Interpretation(const std::string& path, const ImportOptions& options,
-                               Diagnostics& diagnostics, Take take)
+                               WorldChoice drawn, Diagnostics& diagnostics, Take take)
     : take_(std::move(take)) {
-    auto sink = std::make_unique<Interpreter>(path, options, host(), diagnostics);
+    auto sink = std::make_unique<Interpreter>(path, options, std::move(drawn), host(), diagnostics);
     interpreter_ = sink.get();
     context_.emplace(std::move(sink), diagnostics);
     reader_.emplace(*context_);

@@ -21,8 +21,8 @@ class Interpretation {
     using Take = std::function<bool(SceneDescription&& world)>;
 
     // `path` as Interpreter has it.
-    Interpretation(const std::string& path, const ImportOptions& options, Diagnostics& diagnostics,
-                   Take take);
+    Interpretation(const std::string& path, const ImportOptions& options, WorldChoice drawn,
+                   Diagnostics& diagnostics, Take take);
     Interpretation(const Interpretation&) = delete;
 
     Context& context() { return *context_; }

@@ -24,9 +24,8 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
 }  // namespace
 
 bool Interpreter::is_visible() const {
-    const int wanted = state_.import.world;
     const Attributes& now = state_.attributes;
-    return (wanted < 0 || wanted == worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
+    return drawn_.draws(worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
 }
 
 void Interpreter::primitive(const Call& call) {

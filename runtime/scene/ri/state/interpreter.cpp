@@ -64,10 +64,11 @@ State first_state(std::string path, const ImportOptions& options) {
 
 }  // namespace
 
-Interpreter::Interpreter(std::string path, const ImportOptions& options, InterpreterHost host,
-                         Diagnostics& diagnostics)
+Interpreter::Interpreter(std::string path, const ImportOptions& options, WorldChoice drawn,
+                         InterpreterHost host, Diagnostics& diagnostics)
     : report_(diagnostics),
       state_(first_state(std::move(path), options)),
+      drawn_(std::move(drawn)),
       host_(std::move(host)),
       shaders_(state_, report_, diagnostics),
       options_(state_, report_, shaders_),
@@ -137,7 +138,7 @@ void Interpreter::dispatch(const Call& call) {
     };
     const RequestClass kind = row(call.request).kind;
     // Archives, which may hold worlds, are found along an option.
-    if (lists_alone() && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
+    if (drawn_.counts_alone && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
         call.request != Request::Option)
         return;
     if (kind == RequestClass::Option && state_.in_world())
@@ -156,7 +157,7 @@ bool Interpreter::transform_points(std::string_view from, std::string_view to,
 const Declaration* Interpreter::declared_by_shader(Request request, std::string_view shader,
                                                    std::string_view token) {
     const rsl::ShaderParameter* formal = nullptr;
-    if (lists_alone()) return nullptr;
+    if (drawn_.counts_alone) return nullptr;
     if (is_shader_request(request)) {
         formal = formal_of(shaders_.find(shader).get(), token);
     } else if (row(request).kind == RequestClass::Primitive) {

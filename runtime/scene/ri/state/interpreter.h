@@ -14,6 +14,7 @@
 #include "runtime/scene/ri/state/option_calls.h"
 #include "runtime/scene/ri/state/shader_calls.h"
 #include "runtime/scene/ri/state/transform_calls.h"
+#include "runtime/scene/ri/state/world_choice.h"
 
 namespace kinora::ri {
 
@@ -27,11 +28,10 @@ struct InterpreterHost {
 
 class Interpreter : public CallSink {
   public:
-    // With ImportOptions::world >= 0 the other worlds are without primitives.
     // `path`: of the file that the calls come from, or of one that would stand where the program
     // runs.
-    Interpreter(std::string path, const ImportOptions& options, InterpreterHost host,
-                Diagnostics& diagnostics);
+    Interpreter(std::string path, const ImportOptions& options, WorldChoice drawn,
+                InterpreterHost host, Diagnostics& diagnostics);
     ~Interpreter() override;
 
     void call(const Call& call) override;
@@ -74,10 +74,9 @@ class Interpreter : public CallSink {
     bool is_visible() const;
 
     void dispatch(const Call& call);
-    bool lists_alone() const { return state_.import.world == ImportOptions::kNoWorld; }
-
     StateReport report_;
     State state_;
+    const WorldChoice drawn_;
     InterpreterHost host_;
     ShaderCalls shaders_;
     OptionCalls options_;

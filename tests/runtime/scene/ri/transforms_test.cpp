@@ -98,7 +98,8 @@ class RiTransformPointsTest : public testing::Test {
         Diagnostics diagnostics;
         InterpreterHost host;
         host.take_world = [](SceneDescription&&) {};
-        auto sink = std::make_unique<Interpreter>("x.rib", ImportOptions{}, host, diagnostics);
+        auto sink = std::make_unique<Interpreter>("x.rib", ImportOptions{}, WorldChoice{}, host,
+                                                  diagnostics);
         Interpreter& interpreter = *sink;
         Context context(std::move(sink), diagnostics);
         Context* before = Context::current();
