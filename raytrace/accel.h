@@ -69,6 +69,8 @@ struct TraceCounters {
     }
 };
 
+class KeptTrees;  // raytrace/kept_trees.h
+
 struct AccelPolicy {
     bool robust = true;           // watertight traversal: -6 % trace rate, half the refit cost
     bool always_rebuild = false;  // MEDIUM build of what moved at every update: the reference
@@ -79,6 +81,8 @@ struct AccelPolicy {
     // tree: every hit then is the same bits after a refit, a rebuild and a restart. Costs a
     // callback for each candidate hit, 7 % of the trace rate.
     bool fixed_winner = true;
+    std::shared_ptr<KeptTrees> kept =
+        nullptr;  // of Instanced shapes; null: each accel builds its own
 };
 
 enum class GeometryIssue : uint8_t {
@@ -92,6 +96,7 @@ struct AccelUpdate {
     int refits = 0;
     int rebuilds = 0;      // structures built MEDIUM inside this update
     int low_rebuilds = 0;  // structures built LOW
+    int kept = 0;          // structures of AccelPolicy::kept
     int background_started = 0;
     int background_finished = 0;  // a tree built in the background is in use from now on
     int matrices = 0;             // instance matrices that changed

@@ -8,6 +8,7 @@
 
 #include "raytrace/accel.h"
 #include "raytrace/embree_p.h"
+#include "raytrace/kept_trees_p.h"
 #include "raytrace/mesh_watch_p.h"
 #include "raytrace/placement_p.h"
 #include "raytrace/scale_p.h"
@@ -28,11 +29,7 @@ struct StaticGroup {
 struct InstancedShape {
     uint32_t first_row = 0;
     bool dynamic = false;
-    float scale = 1;  // Embree's vertices from those of its space
-    EmbreeScene scene;
-    EmbreeMesh mesh;
-    std::vector<uint32_t> kept;  // without_untraceable() of the vertices that the tree was built of
-    vec3 low{0.0f}, high{0.0f};  // the scene's box; low above high: nothing in it is traceable
+    std::shared_ptr<ShapeTree> tree;
 };
 
 struct GeometryState {

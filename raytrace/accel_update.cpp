@@ -71,6 +71,7 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
     s.rows.clear();
     s.groups.clear();
     s.shapes.clear();
+    if (s.policy.kept) s.policy.kept->state().begin();
     s.map.slots.clear();
     s.map.rows.assign(geometry.size(), {});
     s.rows.resize(geometry.size());

@@ -10,27 +10,48 @@ void Updater::build_shape(InstancedShape& shape, bool dynamic) {
     const GeometryState& row = s.rows[shape.first_row];
     const Geometry& g = row.seen;
     shape.dynamic = dynamic;
-    shape.scale = local_scale(s.size, size_of(g.positions));
-    shape.scene = EmbreeScene(dynamic, s.policy.robust);
-    if (!row.sound) return commit_shape(shape);  // empty
-    watch(g);
-    shape.kept = without_untraceable(g.positions, g.triangles, shape.scale);
-    bool refit = dynamic && !s.policy.always_rebuild;
+    const float scale = local_scale(s.size, size_of(g.positions));
     // Rows of one shape may differ in mask and sides, so the instance carries the mask, and the
     // filter is there if any row might need it.
-    bool filter = s.policy.fixed_winner || s.any_hidden_backfaces;
-    shape.mesh =
-        EmbreeMesh(g.positions, g.triangles, refit ? BuildQuality::Refit : BuildQuality::Medium,
-                   kMaskAll, filter, shape.scale);
-    shape.scene.attach(shape.mesh, 0);
-    commit_shape(shape);
+    const bool filtered = s.policy.fixed_winner || s.any_hidden_backfaces;
+    const ShapeSource source{g.positions, g.triangles, scale, s.policy.robust, filtered};
+    if (row.sound) watch(g);
+    const bool keeps = s.policy.kept && row.sound && !dynamic;
+    if (keeps && (shape.tree = s.policy.kept->state().find(source))) {
+        ++s.report.kept;
+        return;
+    }
+    shape.tree = std::make_shared<ShapeTree>();
+    ShapeTree& tree = *shape.tree;
+    tree.scale = scale;
+    tree.scene = EmbreeScene(dynamic, s.policy.robust);
+    if (!row.sound) return commit_tree(tree);  // empty
+    const bool refit = dynamic && !s.policy.always_rebuild;
+    fill_tree(tree, source, refit ? BuildQuality::Refit : BuildQuality::Medium, keeps);
+    if (keeps) s.policy.kept->state().keep(source, shape.tree);
     ++s.report.rebuilds;
 }
 
+// A tree that is kept reads buffers of its own.
+void Updater::fill_tree(ShapeTree& tree, const ShapeSource& source, BuildQuality quality,
+                        bool keeps) {
+    std::span<const vec4> positions = source.positions;
+    std::span<const uint32_t> triangles = source.triangles;
+    if (keeps) {
+        tree.positions.assign(positions.begin(), positions.end());
+        tree.triangles.assign(triangles.begin(), triangles.end());
+        positions = tree.positions, triangles = tree.triangles;
+    }
+    tree.kept = without_untraceable(positions, triangles, tree.scale);
+    tree.mesh = EmbreeMesh(positions, triangles, quality, kMaskAll, source.filtered, tree.scale);
+    tree.scene.attach(tree.mesh, 0);
+    commit_tree(tree);
+}
+
 // Alone in its scene, a mesh may have triangles that are not traceable.
-void Updater::commit_shape(InstancedShape& shape) {
-    shape.scene.commit();
-    shape.scene.bounds(shape.low, shape.high);
+void Updater::commit_tree(ShapeTree& tree) {
+    tree.scene.commit();
+    tree.scene.bounds(tree.low, tree.high);
 }
 
 void Updater::add_instanced(uint32_t index) {
@@ -64,14 +85,14 @@ bool Updater::update_shape(uint32_t index, const Geometry& now) {
     if (same && !row.sound) return false;
     // Embree leaves bad triangles out of a tree for good.
     if (!same || !shape.dynamic ||
-        shape.kept != without_untraceable(now.positions, now.triangles, shape.scale)) {
+        shape.tree->kept != without_untraceable(now.positions, now.triangles, shape.tree->scale)) {
         build_shape(shape, same);
         // Instances hold on to the scene they were made of.
         for (GeometryState& r : s.rows)
             if (r.shape == row.shape) leave_out(r);
     } else {
-        shape.mesh.vertices_moved();
-        commit_shape(shape);
+        shape.tree->mesh.vertices_moved();
+        commit_tree(*shape.tree);
         ++(s.policy.always_rebuild ? s.report.rebuilds : s.report.refits);
     }
     return true;
@@ -84,16 +105,15 @@ void Updater::leave_out(GeometryState& row) {
 
 // Returns whether the instance is traceable where its matrix puts it.
 bool Updater::place(GeometryState& row) {
-    if (!make_placement(row.seen.accel_from_local, s.scale, s.shapes[row.shape].scale,
-                        row.placement)) {
+    const ShapeTree& tree = *s.shapes[row.shape].tree;
+    if (!make_placement(row.seen.accel_from_local, s.scale, tree.scale, row.placement)) {
         note(GeometryIssue::SingularMatrix, row.seen.id, 1);
         return false;
     }
-    const InstancedShape& shape = s.shapes[row.shape];
-    if (!has_extent(shape.low, shape.high)) return false;
-    if (!row.attached) row.instance = EmbreeInstance(shape.scene, mask_of(row.seen));
+    if (!has_extent(tree.low, tree.high)) return false;
+    if (!row.attached) row.instance = EmbreeInstance(tree.scene, mask_of(row.seen));
     row.instance.set_matrix(row.placement.traced);
-    return surely_has_extent(row.placement, shape.low, shape.high) || row.instance.has_extent();
+    return surely_has_extent(row.placement, tree.low, tree.high) || row.instance.has_extent();
 }
 
 bool Updater::update_instance(uint32_t index, const Geometry& now, bool shape_changed) {

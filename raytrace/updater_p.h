@@ -35,7 +35,8 @@ class Updater {
     void leave_first_poses();
     void add_instanced(uint32_t row);
     void build_shape(InstancedShape& shape, bool dynamic);
-    void commit_shape(InstancedShape& shape);
+    void fill_tree(ShapeTree& tree, const ShapeSource& source, BuildQuality quality, bool keeps);
+    void commit_tree(ShapeTree& tree);
     bool place(GeometryState& row);
     void leave_out(GeometryState& row);
     void map_row(uint32_t row);

@@ -42,6 +42,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.background_rebuilds = false;  // a frame depends on its time alone
     o.decode_textures = encoding_of(request) == ColorEncoding::Srgb;
     o.aovs = request.aovs;
+    o.trees = request.trees;
     o.print = request.print;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
     o.width = scaled(request, request.width ? request.width : 640);

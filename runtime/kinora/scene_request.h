@@ -45,10 +45,11 @@ struct SceneRequest {
     std::vector<std::pair<std::string, std::string>> shaders;  // MATERIAL or LIGHT, SHADER
     std::vector<std::pair<std::string, std::string>> params;   // MATERIAL.NAME, VALUE
     std::vector<std::string> hide, only;                       // nodes
-    std::string imager;             // one of ours by name, FILE.sl, "none"; "": the scene's own
-    std::string atmosphere;         // likewise
-    int world = -1;                 // of the pictures in a RIB file; -1: the last
-    std::vector<std::string> aovs;  // output parameters of surfaces
+    std::string imager;      // one of ours by name, FILE.sl, "none"; "": the scene's own
+    std::string atmosphere;  // likewise
+    int world = -1;          // of the pictures in a RIB file; -1: the last
+    std::shared_ptr<raytrace::KeptTrees> trees;  // SceneOptions::trees
+    std::vector<std::string> aovs;               // output parameters of surfaces
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "raytrace/film.h"
+#include "raytrace/kept_trees.h"
 #include "runtime/kinora/kinora.h"
 #include "runtime/ri/display_files.h"
 #include "runtime/ri/session.h"
@@ -19,6 +20,7 @@ SceneRequest program_request() {
     request.scene = "program.rib";
     request.quality = *find_quality(kDefaultQuality);
     request.color = ColorEncoding::Linear;
+    request.trees = std::make_shared<raytrace::KeptTrees>();
     return request;
 }
 

@@ -8,7 +8,8 @@ raytrace::AccelPolicy accel_policy(const SceneOptions& options) {
             .always_rebuild = options.quality.always_rebuild,
             .background = options.background_rebuilds,
             .refit_limit = float(options.quality.refit_limit),
-            .low_limit = float(options.low_limit)};
+            .low_limit = float(options.low_limit),
+            .kept = options.trees};
 }
 
 anim::KeyOptions key_options(const Quality& quality) {

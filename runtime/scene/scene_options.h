@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,8 +53,9 @@ struct SceneOptions {
     double frame_rate = 0;            // frames a second that option("Frame") counts; 0: the file's
     // Range played, seconds: what added cameras frame, and its views tell how fine to dice.
     double start_time = 0, end_time = 0;
-    size_t dice_limit = 4'000'000;  // triangles of all displaced surfaces together
-    int width = 640, height = 0;    // of the picture that dicing is for; 0: from the camera
+    std::shared_ptr<raytrace::KeptTrees> trees;  // of the pictures of one film; null: none are kept
+    size_t dice_limit = 4'000'000;               // triangles of all displaced surfaces together
+    int width = 640, height = 0;  // of the picture that dicing is for; 0: from the camera
     std::vector<std::pair<std::string, std::string>> dumps;  // filled when want_dumps
     bool want_dumps = false;
     PrintTo print;

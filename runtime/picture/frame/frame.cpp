@@ -176,6 +176,7 @@ bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings
         stats.rows_compared = update.compared;
         stats.refits = update.refits;
         stats.rebuilds = update.rebuilds + update.low_rebuilds;
+        stats.kept_trees = update.kept;
         if (pose.first_frame || !pose.all_finite || !update.issues.empty())
             report_geometry(scene, pose, update, diagnostics);
     }

@@ -66,6 +66,7 @@ void print_frame(const FrameRecord& r) {
                 per_pixel(s.rays, r), 100 * full.camera);
     if (s.shader_rays.shadow_packets) std::printf(", of shadows %.0f %%", 100 * full.shadow);
     if (s.shader_rays.packets) std::printf(", of shaders %.0f %%", 100 * full.nested);
+    if (s.kept_trees) std::printf("; %d trees kept", s.kept_trees);
     std::printf("\n");
 }
 
@@ -111,6 +112,7 @@ Json json_of_work(const FrameRecord& r) {
                   {"points_per_second", double(s.shading_points) / s.total * 1e3},
                   {"refits", s.refits},
                   {"rebuilds", s.rebuilds},
+                  {"kept_trees", s.kept_trees},
                   {"non_finite", s.non_finite},
                   {"dice_error", r.dice_error},
                   {"redice_ms", r.redice_ms}});

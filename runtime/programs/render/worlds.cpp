@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "raytrace/kept_trees.h"
 #include "runtime/base/stats.h"
 #include "runtime/kinora/frame_list.h"
 #include "runtime/kinora/open_scene.h"
@@ -31,6 +32,7 @@ std::optional<std::vector<int>> worlds_to_render(const RenderOptions& options) {
 bool read_worlds(const RenderOptions& options, const std::vector<int>& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render) {
     judge_by(options, found);
+    const auto trees = std::make_shared<raytrace::KeptTrees>();
     int next = 0;
     Stopwatch watch;
     auto take = [&](SceneDescription&& scene) {
@@ -39,6 +41,7 @@ bool read_worlds(const RenderOptions& options, const std::vector<int>& worlds, D
         merge_meshes(scene);
         ReadWorld world{options, std::move(scene), watch.ms(), found};
         world.options.world = index;
+        world.options.trees = trees;
         world.options.frames = {{int64_t(world.scene.file_picture->number)}};
         const bool go_on = render(std::move(world));
         watch.restart();

@@ -131,6 +131,7 @@ struct MeshDefinition {
     std::vector<dvec3> positions;
     std::vector<PrimitiveGroup> groups;
     bool double_sided = true;
+    bool lasts = false;  // the film's next pictures may have it, too: its tree is kept
     Location where;
 };
 

@@ -68,12 +68,12 @@ std::vector<size_t> add_meshes(const SceneNodes& nodes, SceneShapes& scene) {
 }
 
 // `uses`: how many shapes the mesh has.
-raytrace::GeometryKind kind_of(const MeshUse& use, const Node& node, const Mesh& mesh,
+raytrace::GeometryKind kind_of(const MeshUse& use, const Node& node, const Mesh& mesh, bool lasts,
                                size_t uses) {
     if (use.skin != kNone || use.morph != kNone) return raytrace::GeometryKind::Deforming;
     size_t triangles = 0;
     for (const MeshGroup& group : mesh.groups) triangles += group.triangles.size() / 3;
-    if (node.can_move || (uses > 1 && triangles > kBakedTriangles / uses))
+    if (node.can_move || lasts || (uses > 1 && triangles > kBakedTriangles / uses))
         return raytrace::GeometryKind::Instanced;
     return raytrace::GeometryKind::Static;
 }
@@ -87,7 +87,8 @@ void add_shape(const SceneNodes& nodes, SceneShapes& scene, Pose& start, const M
     shape.skin = use.skin;
     shape.morph = use.morph;
     shape.conversion = use.conversion;
-    shape.kind = kind_of(use, nodes.nodes[node], mesh, uses);
+    shape.kind =
+        kind_of(use, nodes.nodes[node], mesh, nodes.description->meshes[use.mesh].lasts, uses);
     if (use.morph != kNone) add_morph(*nodes.description, scene, use.morph, shape, diagnostics);
     if (shape.kind == raytrace::GeometryKind::Deforming) skins.bind(use, mesh, shape);
     ShapePose& stands = start.shapes.emplace_back();

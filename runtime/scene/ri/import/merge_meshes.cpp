@@ -123,7 +123,8 @@ class Merging {
     MeshDefinition& mesh(const MeshUse& use) { return description_.meshes[use.mesh]; }
 
     bool joins(const MeshUse& use) {
-        return uses_[use.mesh] == 1 && mesh(use).groups.size() == 1 && use.materials.size() == 1 &&
+        return uses_[use.mesh] == 1 && !mesh(use).lasts && mesh(use).groups.size() == 1 &&
+               use.materials.size() == 1 &&
                description_.materials[use.materials[0].material].lights.empty();
     }
     void share_material(MeshUse& use) {

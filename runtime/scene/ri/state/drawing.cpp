@@ -21,7 +21,15 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
     return mesh;
 }
 
+constexpr size_t kLastingTriangles = 1000;
+
 }  // namespace
+
+// Within a frame block others follow, and most of what is there stands in them, too. Trees of small
+// meshes are not worth a place of their own.
+bool Interpreter::lasts(const MeshDefinition& mesh) const {
+    return frame_ && mesh.groups[0].triangles.size() >= 3 * kLastingTriangles;
+}
 
 bool Interpreter::is_visible() const {
     const Attributes& now = state_.attributes;
@@ -53,6 +61,7 @@ void Interpreter::primitive(const Call& call) {
     }
     if (!mesh) return;
     mesh->where = call.where;
+    mesh->lasts = lasts(*mesh);
     state_.world->add(std::move(*mesh), state_.attributes, to_camera);
     if (key) state_.world->keep_mesh(key, state_.attributes, to_camera);
 }

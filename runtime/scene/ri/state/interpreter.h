@@ -72,6 +72,7 @@ class Interpreter : public CallSink {
     void geometry(const Call& call);
     void not_drawn(const Call& call);
     bool is_visible() const;
+    bool lasts(const MeshDefinition& mesh) const;
 
     void dispatch(const Call& call);
     StateReport report_;
