@@ -2,6 +2,8 @@
 // needs them.
 #pragma once
 
+#include <optional>
+
 #include "runtime/base/math.h"
 #include "runtime/scene/description/curved_surface.h"
 #include "runtime/scene/description/scene_description.h"
@@ -17,6 +19,11 @@ struct PictureScale {
     double pixels = 0;
     double near = 1e-3;  // what is nearer is not made finer
 };
+
+// The scale of a thing (in a ball of object space) all of whose parts have about one size in the
+// picture, as one of few, at least as fine: so that equal things have equal triangles wherever they
+// stand. Nothing for other things.
+std::optional<PictureScale> steady_scale(const PictureScale& scale, dvec3 center, double radius);
 
 struct TessellationLimits {
     double error = 0.25;           // pixels between a surface and its triangles, at most

@@ -87,8 +87,10 @@ void Interpreter::world_begin(const Call& call) {
     state_.camera_from_world = state_.transform;
     state_.transform = dmat4(1.0);
     ++worlds_;
+    meshes_.begin_world();
     state_.world = std::make_unique<World>(state_.options, state_.path, state_.import,
-                                           state_.camera_from_world, frame_.value_or(worlds_));
+                                           state_.camera_from_world, frame_.value_or(worlds_),
+                                           frame_.has_value());
 }
 
 void Interpreter::world_end(const Call& call) {
@@ -206,17 +208,12 @@ bool Interpreter::record(const Call& call) {
         if (object)
             objects_[open.object] = open.calls;
         else
-            keep_archive(open.archive, open.calls);
+            archives_[open.archive] = std::move(open.calls);
         recording_.pop_back();
         return true;
     }
     open.calls->add(call);
     return true;
-}
-
-void Interpreter::keep_archive(const std::string& name, std::shared_ptr<CallList> calls) {
-    std::swap(archives_[name], calls);
-    if (calls) replaced_.push_back(std::move(calls));
 }
 
 // Whether what `name` names may be read once more; until leave() it may not, since it would never
@@ -237,10 +234,7 @@ void Interpreter::leave() {
 }
 
 void Interpreter::replay(const CallList& calls) {
-    for (const Call& call : calls.calls()) {
-        replayed_call_ = &call;
-        this->call(call);
-    }
+    for (const Call& call : calls.calls()) this->call(call);
 }
 
 void Interpreter::object_instance(const Call& call) {

@@ -1,5 +1,6 @@
 // runtime/scene/ri/state/drawing.cpp: primitives into the open world.
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/state/call_content.h"
 #include "runtime/scene/ri/state/interpreter.h"
 #include "runtime/scene/ri/state/primitives.h"
 #include "runtime/scene/tessellate/subdivide.h"
@@ -21,59 +22,89 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
     return mesh;
 }
 
-constexpr size_t kLastingTriangles = 1000;
+constexpr uint32_t kFewCorners = 256;
 
 }  // namespace
-
-// Within a frame block others follow, and most of what is there stands in them, too. Trees of small
-// meshes are not worth a place of their own.
-bool Interpreter::lasts(const MeshDefinition& mesh) const {
-    return frame_ && mesh.groups[0].triangles.size() >= 3 * kLastingTriangles;
-}
 
 bool Interpreter::is_visible() const {
     const Attributes& now = state_.attributes;
     return drawn_.draws(worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
 }
 
-void Interpreter::primitive(const Call& call) {
-    if (!is_visible()) return;
-    // Calls of a list that is played again stand where they stood.
-    const void* key = replayed_call_ == &call ? &call : nullptr;
-    const dmat4 to_camera = state_.to_camera();
-    if (key && state_.world->add_again(key, state_.attributes, to_camera)) return;
+// Of a primitive that may come again. Where it has a steady size in the picture, `scale` becomes
+// that. Nothing: it is made as it comes.
+std::optional<MeshKey> Interpreter::key_of(const Call& call, PictureScale& scale) const {
+    const Attributes& now = state_.attributes;
+    if (is_polygon(call.request)) {
+        if (call.counts.face_varying < kFewCorners) return std::nullopt;
+        return MeshKey{content_of(call, now), 0};
+    }
+    const std::optional<Ball> ball = ball_of(call, now);
+    if (!ball) return std::nullopt;
+    const auto steady = steady_scale(scale, ball->center, ball->radius);
+    if (!steady) return std::nullopt;
+    scale = *steady;
+    return MeshKey{content_of(call, now), scale.pixels};
+}
+
+std::optional<MeshDefinition> Interpreter::mesh_of_call(const Call& call,
+                                                        const PictureScale& scale) {
     std::optional<MeshDefinition> mesh;
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, state_.attributes);
     } else if (call.request == Request::SubdivisionMesh) {
-        SubdivisionSurface surface = subdivision_surface(call, state_.attributes);
-        if (surface.points.empty())
-            return report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
-        if (call.arguments[0].string() != "catmull-clark")
-            report_.not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
-        if (has_creases(call))
-            report_.not_done("SubdivisionMesh", "creases, corners and holes are smooth");
-        mesh = mesh_of(subdivide(surface, state_.world->scale(state_.to_camera())));
+        mesh = mesh_of(subdivide(subdivision_of(call), scale));
     } else if (auto surface = curved_surface(call, state_.attributes)) {
-        mesh = mesh_of(tessellate(*surface, state_.world->scale(state_.to_camera())));
+        mesh = mesh_of(tessellate(*surface, scale));
     } else {
-        return report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
+        report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
     }
-    if (!mesh) return;
-    mesh->where = call.where;
-    mesh->lasts = lasts(*mesh);
-    state_.world->add(std::move(*mesh), state_.attributes, to_camera);
-    if (key) state_.world->keep_mesh(key, state_.attributes, to_camera);
+    if (mesh) mesh->where = call.where;
+    return mesh;
+}
+
+SubdivisionSurface Interpreter::subdivision_of(const Call& call) {
+    SubdivisionSurface surface = subdivision_surface(call, state_.attributes);
+    if (surface.points.empty())
+        report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
+    else if (call.arguments[0].string() != "catmull-clark")
+        report_.not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
+    if (has_creases(call))
+        report_.not_done("SubdivisionMesh", "creases, corners and holes are smooth");
+    return surface;
+}
+
+// One of a film's last picture, or a new one.
+std::optional<MeshDefinition> Interpreter::kept_mesh(const MeshKey& key, const Call& call,
+                                                     const PictureScale& scale) {
+    const bool costly = frame_ && !is_polygon(call.request);
+    if (costly)
+        if (auto kept = meshes_.find(key)) return *kept;
+    std::optional<MeshDefinition> mesh = mesh_of_call(call, scale);
+    if (costly && mesh) meshes_.keep(key, *mesh);
+    return mesh;
+}
+
+void Interpreter::primitive(const Call& call) {
+    if (!is_visible()) return;
+    const Placement placement{state_.transform, state_.to_camera()};
+    PictureScale scale = state_.world->scale(placement.to_camera);
+    if (const std::optional<MeshKey> key = key_of(call, scale))
+        state_.world->add(*key, state_.attributes, placement,
+                          [&] { return kept_mesh(*key, call, scale); });
+    else if (auto mesh = mesh_of_call(call, scale))
+        state_.world->add(std::move(*mesh), state_.attributes, placement);
 }
 
 void Interpreter::geometry(const Call& call) {
     if (!is_visible()) return;
     if (call.arguments[0].string() != "teapot")
         return report_.not_done("Geometry", "only \"teapot\" is known");
+    const Placement placement{state_.transform, state_.to_camera()};
     for (const CurvedSurface& patch : teapot(state_.attributes))
-        if (auto mesh = mesh_of(tessellate(patch, state_.world->scale(state_.to_camera())))) {
+        if (auto mesh = mesh_of(tessellate(patch, state_.world->scale(placement.to_camera)))) {
             mesh->where = call.where;
-            state_.world->add(std::move(*mesh), state_.attributes, state_.to_camera());
+            state_.world->add(std::move(*mesh), state_.attributes, placement);
         }
 }
 

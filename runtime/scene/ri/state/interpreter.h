@@ -60,7 +60,6 @@ class Interpreter : public CallSink {
     void branch_else(const Call& call);
     void if_end(const Call& call);
     bool record(const Call& call);
-    void keep_archive(const std::string& name, std::shared_ptr<CallList> calls);
     bool enter(const std::string& name);
     void leave();
     void replay(const CallList& calls);
@@ -72,7 +71,11 @@ class Interpreter : public CallSink {
     void geometry(const Call& call);
     void not_drawn(const Call& call);
     bool is_visible() const;
-    bool lasts(const MeshDefinition& mesh) const;
+    std::optional<MeshKey> key_of(const Call& call, PictureScale& scale) const;
+    std::optional<MeshDefinition> kept_mesh(const MeshKey& key, const Call& call,
+                                            const PictureScale& scale);
+    std::optional<MeshDefinition> mesh_of_call(const Call& call, const PictureScale& scale);
+    SubdivisionSurface subdivision_of(const Call& call);
 
     void dispatch(const Call& call);
     StateReport report_;
@@ -83,6 +86,7 @@ class Interpreter : public CallSink {
     OptionCalls options_;
     AttributeCalls attributes_;
     TransformCalls transforms_;
+    MeshStore meshes_;
     int worlds_ = 0;
     std::optional<int> frame_;
 
@@ -99,14 +103,11 @@ class Interpreter : public CallSink {
     std::vector<Recording> recording_;  // at most one but for motion in others
     std::map<std::string, std::shared_ptr<CallList>, std::less<>> archives_;
     std::map<int, std::shared_ptr<CallList>> objects_;
-    // Of archives that were made anew. World knows meshes by where their calls lie.
-    std::vector<std::shared_ptr<CallList>> replaced_;
-    std::vector<std::string> entered_;     // the objects and archives that are being read
-    size_t replayed_ = 0;                  // calls of them
-    const Call* replayed_call_ = nullptr;  // the last that came from a list
-    int skipped_branch_ = 0;               // depth of IfBegin within a branch that is not read
-    std::vector<bool> branches_;           // of open IfBegin: one was read
-    Declaration formal_;                   // the last answer of declared_by_shader
+    std::vector<std::string> entered_;  // the objects and archives that are being read
+    size_t replayed_ = 0;               // calls of them
+    int skipped_branch_ = 0;            // depth of IfBegin within a branch that is not read
+    std::vector<bool> branches_;        // of open IfBegin: one was read
+    Declaration formal_;                // the last answer of declared_by_shader
 };
 
 }  // namespace kinora::ri

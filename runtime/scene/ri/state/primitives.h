@@ -12,6 +12,14 @@
 
 namespace kinora::ri {
 
+// What a primitive lies in, in object space.
+struct Ball {
+    dvec3 center;
+    double radius;
+};
+// By its numbers and control points. Nothing: they do not tell.
+std::optional<Ball> ball_of(const Call& call, const Attributes& attributes);
+
 // Polygon and its three relatives as triangles. Without N they are flat. Their s, t are x, y of
 // object space where no variable gives them. Nothing: no triangle has an area.
 std::optional<MeshDefinition> polygon_mesh(const Call& call, const Attributes& attributes);

@@ -2,6 +2,7 @@
 #include "runtime/scene/ri/state/world.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -92,20 +93,24 @@ FilePicture picture_of(const Options& options) {
     return made;
 }
 
-// What of the attributes changes a primitive's mesh.
-std::vector<double> shape_key(const Attributes& attributes) {
-    std::vector<double> key(attributes.corners.begin(), attributes.corners.end());
-    key.push_back(attributes.inside_out);
-    for (const Basis* basis : {&attributes.u, &attributes.v}) {
-        auto numbers = numbers_of(basis->matrix);
-        key.insert(key.end(), numbers.begin(), numbers.end());
-        key.push_back(basis->step);
+// What differs between materials, as bits.
+class MaterialKey {
+  public:
+    void add(const ShaderBinding& binding, const dmat4& to_camera) {
+        add(reinterpret_cast<uint64_t>(&binding));
+        add(binding.to_camera != to_camera);
     }
-    key.push_back(attributes.trim_outside);
-    for (const TrimLoop& loop : attributes.trims)
-        for (const dvec2& p : loop) key.insert(key.end(), {p.x, p.y});
-    return key;
-}
+    void add(uint64_t bits) { bits_.push_back(bits); }
+    void add(const dvec3& numbers) {
+        for (int k = 0; k < 3; ++k) add(std::bit_cast<uint64_t>(numbers[k]));
+    }
+    std::vector<uint64_t> take() { return std::move(bits_); }
+
+  private:
+    std::vector<uint64_t> bits_;
+};
+
+constexpr size_t kLastingTriangles = 1000;  // trees of less are not worth a place of their own
 
 }  // namespace
 
@@ -131,8 +136,11 @@ WorldCamera camera_of(const Options& options) {
 }
 
 World::World(const Options& options, const std::string& path, const ImportOptions& import,
-             const dmat4& camera_from_world, int number)
-    : options_(options), camera_from_world_(camera_from_world), camera_(camera_of(options)) {
+             const dmat4& camera_from_world, int number, bool in_film)
+    : options_(options),
+      camera_from_world_(camera_from_world),
+      camera_(camera_of(options)),
+      in_film_(in_film) {
     out_.path = path;
     out_.up_axis = UpAxis::Y;
     limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
@@ -253,24 +261,21 @@ std::vector<uint32_t> World::light_list(const Attributes& attributes) {
     return list;
 }
 
-uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
+// `any_color`: the meshes that wear it have their own.
+uint32_t World::material(const Attributes& attributes, const dmat4& to_camera, bool any_color) {
     const std::vector<Binding>* all[] = {&attributes.surfaces, &attributes.displacements,
                                          &attributes.deformations, &attributes.interiors,
                                          &attributes.exteriors};
-    std::string key;
+    MaterialKey key;
     for (const auto* bindings : all) {
-        for (const Binding& binding : *bindings)
-            key += fmt::format(" {} {}", static_cast<const void*>(binding.get()),
-                               binding->to_camera != to_camera);
-        key += ';';
+        for (const Binding& binding : *bindings) key.add(*binding, to_camera);
+        key.add(bindings->size());
     }
-    if (const LightBinding* light = attributes.area_light.get())
-        key += fmt::format("{} {};", static_cast<const void*>(light),
-                           light->shader.to_camera != to_camera);
-    const dvec3 &c = attributes.color, &o = attributes.opacity;
-    key += fmt::format("{} {} {} {} {} {} {} {}", c.x, c.y, c.z, o.x, o.y, o.z,
-                       attributes.two_sided, attributes.no_surface);
-    auto [entry, is_new] = materials_.try_emplace(std::move(key), uint32_t(out_.materials.size()));
+    if (const LightBinding* light = attributes.area_light.get()) key.add(light->shader, to_camera);
+    if (!any_color) key.add(attributes.color);
+    key.add(attributes.opacity);
+    key.add(any_color | attributes.two_sided << 1 | attributes.no_surface << 2);
+    auto [entry, is_new] = materials_.try_emplace(key.take(), uint32_t(out_.materials.size()));
     if (!is_new) return entry->second;
     for (const auto* bindings : all) held_.insert(held_.end(), bindings->begin(), bindings->end());
     MaterialDefinition made;
@@ -289,8 +294,8 @@ uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
     made.hide_backfaces = !attributes.two_sided;
     ParamSource color, opacity;
     color.name = "Cs", opacity.name = "Os";
-    color.value = values(std::span(&c.x, 3));
-    opacity.value = values(std::span(&o.x, 3));
+    color.value = values(std::span(&attributes.color.x, 3));
+    opacity.value = values(std::span(&attributes.opacity.x, 3));
     for (auto* uses : {&made.surfaces, &made.displacements})
         for (ShaderUse& use : *uses) {
             use.params.push_back(color);
@@ -306,53 +311,99 @@ uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
     return entry->second;
 }
 
-void World::use_mesh(uint32_t mesh, const Attributes& attributes, const dmat4& to_camera) {
+void World::use_mesh(uint32_t mesh, uint32_t material, const Attributes& attributes,
+                     const dmat4& to_camera) {
     MeshUse use;
     use.mesh = mesh;
     MaterialUse worn;
-    worn.material = material(attributes, to_camera);
+    worn.material = material;
     use.materials = {worn};
     use.lights = light_list(attributes);
     out_.nodes[node(to_camera)].meshes.push_back(std::move(use));
+}
+
+void World::add_atmosphere(const Attributes& attributes) {
     if (out_.picture.atmosphere.empty() && !attributes.atmospheres.empty())
         for (const Binding& binding : attributes.atmospheres)
             out_.picture.atmosphere.push_back(shader_use(*binding, nullptr));
 }
 
-void World::add(MeshDefinition mesh, const Attributes& attributes, const dmat4& to_camera) {
-    uint32_t index = uint32_t(out_.meshes.size());
+uint32_t World::push_mesh(MeshDefinition mesh, const Attributes& attributes) {
+    const uint32_t index = uint32_t(out_.meshes.size());
     mesh.id = fmt::format("primitive {}", index);
     mesh.name = attributes.name;
     out_.meshes.push_back(std::move(mesh));
-    use_mesh(index, attributes, to_camera);
+    return index;
 }
 
-// Of a unit of the mesh, where it is nearest.
-double World::pixels_of(const KeptMesh& kept, const dmat4& to_camera) const {
-    const PictureScale at = scale(to_camera);
-    double size = 0;
-    for (int c = 0; c < 3; ++c) size = std::max(size, glm::length(dvec3(at.to_camera[c])));
-    double z = (at.to_camera * dvec4(kept.center, 1)).z - kept.radius * size;
-    return at.pixels * size / (at.orthographic ? 1 : std::max(z, at.near));
+bool World::names_object_space(const Binding& binding) {
+    auto [known, is_new] = in_object_space_.try_emplace(binding.get(), false);
+    if (!is_new) return known->second;
+    held_.push_back(binding);
+    auto names = [](std::string_view text) { return text == "object"; };
+    for (const ShaderArgument& argument : binding->arguments)
+        known->second |= std::ranges::any_of(argument.strings, names);
+    if (binding->shader)
+        for (const rsl::Token& token : binding->shader->ast->tokens.tokens)
+            known->second |= token.text == "\"object\"";
+    return known->second;
 }
 
-void World::keep_mesh(const void* key, const Attributes& attributes, const dmat4& to_camera) {
-    KeptMesh kept{uint32_t(out_.meshes.size() - 1), {}, 0, 0};
-    dvec3 low(1e300), high(-1e300);
-    for (const dvec3& p : out_.meshes.back().positions)
-        low = glm::min(low, p), high = glm::max(high, p);
-    kept.center = (low + high) / 2.0, kept.radius = glm::length(high - low) / 2;
-    kept.pixels = pixels_of(kept, to_camera);
-    kept_.insert_or_assign({key, shape_key(attributes)}, kept);
+// Whether the primitive looks the same as a part of a mesh in the file's world.
+bool World::merges(const MeshDefinition& mesh, const Attributes& attributes,
+                   const Placement& placement) {
+    if (!MergedMeshes::takes(mesh) || attributes.area_light || !attributes.displacements.empty() ||
+        !attributes.deformations.empty() || !attributes.interiors.empty() ||
+        !attributes.exteriors.empty())
+        return false;
+    const double determinant = glm::determinant(dmat3(placement.to_world));
+    if (determinant == 0 || !std::isfinite(1 / determinant)) return false;
+    return std::ranges::none_of(attributes.surfaces,
+                                [&](const Binding& b) { return names_object_space(b); });
 }
 
-bool World::add_again(const void* key, const Attributes& attributes, const dmat4& to_camera) {
-    constexpr double kCoarser = 1.5;
-    auto known = kept_.find({key, shape_key(attributes)});
-    if (known == kept_.end()) return false;
-    if (!(pixels_of(known->second, to_camera) <= kCoarser * known->second.pixels)) return false;
-    use_mesh(known->second.mesh, attributes, to_camera);
-    return true;
+void World::merge(const MeshDefinition& mesh, const Attributes& attributes,
+                  const Placement& placement) {
+    const MergedMeshes::Look look{material(attributes, camera_from_world_, true),
+                                  light_list(attributes), attributes.name};
+    const uint32_t begun =
+        merged_.add(out_.meshes, mesh, look, placement.to_world, attributes.color);
+    if (begun == kNone) return;
+    out_.meshes[begun].id = fmt::format("primitives {}", begun);
+    out_.meshes[begun].name = attributes.name;
+    use_mesh(begun, look.material, attributes, camera_from_world_);
+}
+
+void World::draw(KnownMesh& known, const Attributes& attributes, const Placement& placement) {
+    add_atmosphere(attributes);
+    if (known.small && merges(*known.small, attributes, placement))
+        return merge(*known.small, attributes, placement);
+    if (known.mesh == kNone && known.small) known.mesh = push_mesh(*known.small, attributes);
+    if (known.mesh == kNone) return;
+    use_mesh(known.mesh, material(attributes, placement.to_camera, false), attributes,
+             placement.to_camera);
+}
+
+void World::add(MeshDefinition mesh, const Attributes& attributes, const Placement& placement) {
+    KnownMesh known;
+    if (merges(mesh, attributes, placement))
+        known.small = std::move(mesh);
+    else
+        known.mesh = push_mesh(std::move(mesh), attributes);
+    draw(known, attributes, placement);
+}
+
+void World::add(const MeshKey& key, const Attributes& attributes, const Placement& placement,
+                MakeMesh make) {
+    auto [known, is_new] = known_.try_emplace(key);
+    if (is_new)
+        if (std::optional<MeshDefinition> mesh = make()) {
+            if (MergedMeshes::takes(*mesh))
+                known->second.small = std::move(mesh);
+            else
+                known->second.mesh = push_mesh(std::move(*mesh), attributes);
+        }
+    draw(known->second, attributes, placement);
 }
 
 PictureScale World::scale(const dmat4& to_camera) const {
@@ -376,6 +427,8 @@ void World::settle_lights() {
 SceneDescription World::take(const std::map<std::string, dmat4, std::less<>>& spaces) {
     for (const auto& [name, to_camera] : spaces) node(to_camera, name);
     settle_lights();
+    for (MeshDefinition& mesh : out_.meshes)
+        mesh.lasts = in_film_ && mesh.groups[0].triangles.size() >= 3 * kLastingTriangles;
     out_.animated.assign(out_.values.size(), false);
     out_.file_picture = std::move(camera_.picture);
     return std::move(out_);

@@ -9,10 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "runtime/base/parallel.h"
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/ri/calls/call.h"
 #include "runtime/scene/ri/state/graphics_state.h"
+#include "runtime/scene/ri/state/merged_meshes.h"
+#include "runtime/scene/ri/state/mesh_store.h"
 #include "runtime/scene/tessellate/tessellate.h"
 
 namespace kinora::ri {
@@ -25,17 +28,22 @@ struct WorldCamera {
 };
 WorldCamera camera_of(const Options& options);
 
+// Where a primitive stands.
+struct Placement {
+    dmat4 to_world, to_camera;
+};
+
 class World {
   public:
     World(const Options& options, const std::string& path, const ImportOptions& import,
-          const dmat4& camera_from_world, int number);
+          const dmat4& camera_from_world, int number, bool in_film);
 
     // A primitive, as attributes and transformation are.
-    void add(MeshDefinition mesh, const Attributes& attributes, const dmat4& to_camera);
-    // Keeps the mesh of the last add() for a call that comes again (`key`), and draws it again.
-    // False: there is none, for these attributes, that is as fine as it must be there.
-    void keep_mesh(const void* key, const Attributes& attributes, const dmat4& to_camera);
-    bool add_again(const void* key, const Attributes& attributes, const dmat4& to_camera);
+    void add(MeshDefinition mesh, const Attributes& attributes, const Placement& placement);
+    // One whose mesh `make` makes, if it has any, where no primitive of this key came before.
+    using MakeMesh = FunctionRef<std::optional<MeshDefinition>()>;
+    void add(const MeshKey& key, const Attributes& attributes, const Placement& placement,
+             MakeMesh make);
 
     PictureScale scale(const dmat4& to_camera) const;
     const Options& options() const { return options_; }
@@ -43,15 +51,21 @@ class World {
     SceneDescription take(const std::map<std::string, dmat4, std::less<>>& spaces);
 
   private:
-    struct KeptMesh {
-        uint32_t mesh;
-        dvec3 center;  // of its box, and half the diagonal
-        double radius;
-        double pixels;  // of a unit, for which it was made
+    struct KnownMesh {
+        std::optional<MeshDefinition> small;  // not among the meshes, since those merge it
+        uint32_t mesh = kNone;                // kNone: not yet among them
     };
-    double pixels_of(const KeptMesh& kept, const dmat4& to_camera) const;
-    void use_mesh(uint32_t mesh, const Attributes& attributes, const dmat4& to_camera);
-    uint32_t material(const Attributes& attributes, const dmat4& to_camera);
+    void draw(KnownMesh& known, const Attributes& attributes, const Placement& placement);
+    bool merges(const MeshDefinition& mesh, const Attributes& attributes,
+                const Placement& placement);
+    bool names_object_space(const Binding& binding);
+    void merge(const MeshDefinition& mesh, const Attributes& attributes,
+               const Placement& placement);
+    uint32_t push_mesh(MeshDefinition mesh, const Attributes& attributes);
+    void use_mesh(uint32_t mesh, uint32_t material, const Attributes& attributes,
+                  const dmat4& to_camera);
+    uint32_t material(const Attributes& attributes, const dmat4& to_camera, bool any_color);
+    void add_atmosphere(const Attributes& attributes);
     ShaderUse shader_use(const ShaderBinding& binding, const dmat4* object_to_camera);
     std::vector<ShaderUse> shader_uses(const std::vector<Binding>& bindings,
                                        const dmat4& to_camera);
@@ -67,12 +81,15 @@ class World {
     dmat4 camera_from_world_;
     WorldCamera camera_;
     SceneDescription out_;
-    std::map<std::string, uint32_t> materials_;
+    std::map<std::vector<uint64_t>, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
     std::map<std::array<double, 16>, uint32_t> nodes_;
     std::map<std::array<double, 16>, std::string> spaces_;
-    std::map<std::pair<const void*, std::vector<double>>, KeptMesh> kept_;  // by shape_key()
+    std::map<MeshKey, KnownMesh> known_;
+    MergedMeshes merged_;
+    std::map<const ShaderBinding*, bool> in_object_space_;  // answers of names_object_space()
+    bool in_film_;                                          // pictures like this one follow
 };
 
 }  // namespace kinora::ri

@@ -213,7 +213,7 @@ TEST(RiCamera, TheLastProjectionCounts) {
         "Format 10 10 1 " +
         world(square(0, 0, 1, 1)));
     expect_window(two, {-1, 1, -1, 1});
-    expect_near(two.primitive().place({}), {0, 0, 1});
+    expect_near(two.primitive().center(), {0, 0, 1});
 }
 
 TEST(RiCamera, ClippingHidesWhatIsNearerOrFarther) {

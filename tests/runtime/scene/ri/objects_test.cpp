@@ -86,8 +86,8 @@ TEST(RiObjects, InstancesHaveTheirOwnBasis) {
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 4; ++x) points += fmt::format("{} {} 3 ", x, y);
     RibWorlds r("WorldBegin ObjectBegin 1 Patch \"bicubic\" \"P\" [" + points +
-                "] ObjectEnd ObjectInstance 1 Basis \"b-spline\" 1 \"b-spline\" 1 ObjectInstance 1 "
-                "WorldEnd");
+                "] ObjectEnd ObjectInstance 1 Basis \"b-spline\" 1 \"b-spline\" 1 "
+                "Attribute \"identifier\" \"name\" \"another\" ObjectInstance 1 WorldEnd");
     ASSERT_EQ(r.primitives().size(), 2u) << r.findings();
     double high[2] = {-9, -9};
     for (size_t i = 0; i < 2; ++i)
@@ -237,6 +237,41 @@ TEST(RiRecursion, OfTooManyInstancesEnds) {
     EXPECT_LT(seconds() - begin, 20);
     EXPECT_EQ(r.worlds.size(), 1u);
     EXPECT_EQ(r.count("RI_RANGE"), 1);
+}
+
+constexpr const char* kStripes =
+    "surface stripes() { point p = transform(\"object\", P); Ci = color(xcomp(p) > 0, 0, 0); }";
+
+// Small primitives of one look join, but not where their shader asks where their own space is.
+TEST(RiObjects, SmallPrimitivesJoinWhereNoShaderSeesIt) {
+    const std::string two =
+        "Translate -.5 0 3 Polygon \"P\" [-.4 -.4 0 -.4 .4 0 .4 .4 0 .4 -.4 0] "
+        "Color 1 0 0 Scale -1 1 1 Translate -1 0 0 "
+        "Polygon \"P\" [-.4 -.4 0 -.4 .4 0 .4 .4 0 .4 -.4 0] WorldEnd";
+    RibPicture joined(kSmall + "WorldBegin Surface \"constant\" " + two);
+    EXPECT_EQ(joined.scene.scene().shapes.size(), 1u);
+    joined.expect(4, 8, {1, 1, 1});
+    joined.expect(12, 8, {1, 0, 0});
+    RibFolder folder;
+    folder.file("stripes.sl", kStripes);
+    RibPicture apart(kSmall + folder.search() + "WorldBegin Surface \"stripes\" " + two);
+    EXPECT_EQ(apart.scene.scene().shapes.size(), 2u);
+    apart.expect(2, 8, {0, 0, 0});
+    apart.expect(5, 8, {1, 0, 0});
+    apart.expect(10, 8, {1, 0, 0});  // mirrored
+    apart.expect(13, 8, {0, 0, 0});
+}
+
+// A mirror among them turns its normals and sides with it.
+TEST(RiObjects, MirrorsJoinWithTheirSides) {
+    const std::string polygon = "Polygon \"P\" [-.4 -.4 0 -.4 .4 0 .4 .4 0 .4 -.4 0] ";
+    RibPicture r(kSmall + "WorldBegin Sides 1 Surface \"constant\" Translate -.5 0 3 " + polygon +
+                 "Translate 1 0 0 Scale -1 1 1 " + polygon +
+                 "ReverseOrientation Translate 0 .8 0 " + polygon + "WorldEnd");
+    EXPECT_EQ(r.scene.scene().shapes.size(), 1u);
+    EXPECT_TRUE(r.covers(4, 8));
+    EXPECT_TRUE(r.covers(12, 8));   // its orientation turned with the mirror
+    EXPECT_FALSE(r.covers(12, 2));  // turned round
 }
 
 }  // namespace

@@ -26,6 +26,13 @@ struct Described {
     std::optional<std::vector<uint32_t>> lights;
 
     dvec3 place(dvec3 p) const { return dvec3(to_camera * dvec4(p, 1)); }
+    // Of the box about it, in camera space.
+    dvec3 center() const {
+        dvec3 low(1e300), high(-1e300);
+        for (const dvec3& p : mesh->positions)
+            low = glm::min(low, place(p)), high = glm::max(high, place(p));
+        return (low + high) / 2.0;
+    }
 };
 
 inline std::string findings_of(const Diagnostics& diagnostics) {

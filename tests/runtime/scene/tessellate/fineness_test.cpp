@@ -1,4 +1,6 @@
 // tests/runtime/scene/tessellate/fineness_test.cpp: outlines in pixels, and what they cost.
+#include <set>
+
 #include "tests/runtime/scene/tessellate/surfaces.h"
 
 namespace kinora {
@@ -110,6 +112,39 @@ TEST(Fineness, ASkyAroundTheEyeIsNoExplosion) {
 TEST(Fineness, WithoutAPictureASurfaceIsAsIfAThousandPixelsWide) {
     CurvedSurface s = quadric(CurvedKind::Sphere, {7, -7, 7, 360});
     EXPECT_EQ(triangle_count(tessellate(s, {})), triangle_count(tessellate(s, seen(7, 1000))));
+}
+
+// What a steady scale makes is as fine as the picture asks, and the same at places near each other.
+TEST(Fineness, SteadyScalesAreFineEnough) {
+    const CurvedSurface ball = quadric(CurvedKind::Sphere, {1, -1, 1, 360});
+    PictureScale view;
+    view.pixels = 500;
+    std::set<double> scales;
+    for (double z = 4; z < 40; z *= 1.05) {
+        view.to_camera[3] = dvec4(0.1 * z, 0, z, 1);
+        const auto steady = steady_scale(view, dvec3(0.0), 1);
+        ASSERT_TRUE(steady) << z;
+        scales.insert(steady->pixels);
+        // A unit of the front, as the pinhole has it.
+        EXPECT_GE(steady->pixels, view.pixels / (z - 1)) << z;
+        EXPECT_LE(steady->pixels, 3.5 * view.pixels / (z - 1)) << z;
+        EXPECT_LT(inside_outline(tessellate(ball, *steady), 1, view.pixels / (z - 1)), 0.5) << z;
+    }
+    EXPECT_LE(scales.size(), 10u);  // 20 fold, by half octaves
+    EXPECT_GE(scales.size(), 6u);
+}
+
+TEST(Fineness, WhatHasManySizesHasNoSteadyScale) {
+    PictureScale view;
+    view.pixels = 500;
+    EXPECT_FALSE(steady_scale(view, dvec3(0, 0, 2), 1));  // its front is twice as large as its back
+    EXPECT_FALSE(steady_scale(view, dvec3(0, 0, -9), 1));  // behind
+    EXPECT_FALSE(steady_scale(view, dvec3(50, 0, 9), 1));  // far aside
+    view.to_camera[0] = dvec4(2, 0, 0, 0);
+    EXPECT_FALSE(steady_scale(view, dvec3(0, 0, 9), 1));  // stretched
+    view.orthographic = true, view.to_camera = dmat4(1.0);
+    EXPECT_TRUE(steady_scale(view, dvec3(0, 0, 2), 1));
+    EXPECT_FALSE(steady_scale(PictureScale{}, dvec3(0, 0, 9), 1));  // no picture
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// runtime/scene/ri/state/merged_meshes.h: many small primitives of one look as few large meshes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/scene/description/scene_description.h"
+
+namespace kinora::ri {
+
+class MergedMeshes {
+  public:
+    // Meshes that differ in these stay apart.
+    struct Look {
+        uint32_t material;
+        std::vector<uint32_t> lights;
+        std::string name;
+        auto operator<=>(const Look&) const = default;
+    };
+
+    // Whether a mesh may stand in another one's space: it is small, and none of its variables but
+    // its normals is a place or direction.
+    static bool takes(const MeshDefinition& mesh);
+
+    // Appends it, moved by a matrix that has an inverse, to the mesh of its look among `meshes`.
+    // Cs is its colour where no variable is. Returns the index of a mesh that this look had not
+    // yet, or kNone.
+    uint32_t add(std::vector<MeshDefinition>& meshes, const MeshDefinition& mesh, const Look& look,
+                 const dmat4& matrix, const dvec3& color);
+
+  private:
+    std::map<std::pair<Look, std::string>, uint32_t> open_;  // by the variables, too
+};
+
+}  // namespace kinora::ri
