@@ -24,6 +24,8 @@ namespace kinora {
 
 namespace {
 
+constexpr double kMostCurveError = 1;  // of curves that are as coarse as --dice says
+
 int scaled(const SceneRequest& request, double pixels) {
     return int(std::clamp(std::round(pixels * request.scale), 1.0, 65536.0));
 }
@@ -134,6 +136,10 @@ ImportOptions import_options(const SceneRequest& request) {
     import.smooth = request.smooth;
     import.decode_colors = encoding_of(request) == ColorEncoding::Srgb;
     import.world = request.world;
+    import.width = request.width;
+    import.height = request.height;
+    import.scale = request.scale;
+    import.curve_error = std::min(kCurveError * request.quality.dice, kMostCurveError);
     import.include_directories = request.include_directories;
     return import;
 }

@@ -19,6 +19,8 @@ enum class TransparencyMode : uint8_t { Spec, Auto };
 // factor of the diffuse color.
 enum class EmissionMode : uint8_t { Spec, Auto };
 
+inline constexpr double kCurveError = 0.25;
+
 // Faces that meet at less than this many degrees are smooth where a COLLADA file has no normals.
 inline constexpr double kCreaseDegrees = 40;
 
@@ -37,7 +39,11 @@ struct ImportOptions {
     std::optional<double> meter;                   // instead of the file's
     std::vector<std::string> include_directories;  // for #include in shaders
     int world = -1;            // of a RIB file with several pictures, from 0; -1: the last
-    double picture_scale = 1;  // of a RIB file's own picture size: how fine curves are
+    // The picture that curved surfaces are made triangles for: pixels across and down (0, 0: as a
+    // RIB file says), times `scale`, and how many of these lie between a curve and its triangles.
+    int width = 0, height = 0;
+    double scale = 1;
+    double curve_error = kCurveError;
 };
 
 // Limits what the scene's shaders may read and write to its folder ("" is the current one) and what

@@ -53,9 +53,9 @@ std::optional<MeshDefinition> Interpreter::mesh_of_call(const Call& call,
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, state_.attributes);
     } else if (call.request == Request::SubdivisionMesh) {
-        mesh = mesh_of(subdivide(subdivision_of(call), scale));
+        mesh = mesh_of(subdivide(subdivision_of(call), scale, state_.world->limits()));
     } else if (auto surface = curved_surface(call, state_.attributes)) {
-        mesh = mesh_of(tessellate(*surface, scale));
+        mesh = mesh_of(tessellate(*surface, scale, state_.world->limits()));
     } else {
         report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
     }
@@ -101,8 +101,9 @@ void Interpreter::geometry(const Call& call) {
     if (call.arguments[0].string() != "teapot")
         return report_.not_done("Geometry", "only \"teapot\" is known");
     const Placement placement{state_.transform, state_.to_camera()};
+    const PictureScale scale = state_.world->scale(placement.to_camera);
     for (const CurvedSurface& patch : teapot(state_.attributes))
-        if (auto mesh = mesh_of(tessellate(patch, state_.world->scale(placement.to_camera)))) {
+        if (auto mesh = mesh_of(tessellate(patch, scale, state_.world->limits()))) {
             mesh->where = call.where;
             state_.world->add(std::move(*mesh), state_.attributes, placement);
         }

@@ -112,6 +112,13 @@ class MaterialKey {
 
 constexpr size_t kLastingTriangles = 1000;  // trees of less are not worth a place of their own
 
+// How much larger than the file's own the picture is.
+double enlargement(const FilePicture& own, const ImportOptions& import) {
+    const double x = double(import.width) / own.width, y = double(import.height) / own.height;
+    const double size = std::max(x, y);
+    return import.scale * (size > 0 ? size : 1);
+}
+
 }  // namespace
 
 WorldCamera camera_of(const Options& options) {
@@ -140,7 +147,9 @@ World::World(const Options& options, const std::string& path, const ImportOption
     : options_(options),
       camera_from_world_(camera_from_world),
       camera_(camera_of(options)),
+      enlarged_(enlargement(camera_.picture, import)),
       in_film_(in_film) {
+    limits_.error = import.curve_error;
     out_.path = path;
     out_.up_axis = UpAxis::Y;
     limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
@@ -410,7 +419,7 @@ PictureScale World::scale(const dmat4& to_camera) const {
     PictureScale made;
     made.to_camera = options_.projection.from_camera * to_camera;
     made.orthographic = !options_.projection.perspective;
-    made.pixels = camera_.pixels;
+    made.pixels = camera_.pixels * enlarged_;
     made.near = std::max(options_.near, 1e-3);
     return made;
 }

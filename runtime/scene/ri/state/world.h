@@ -46,6 +46,7 @@ class World {
              MakeMesh make);
 
     PictureScale scale(const dmat4& to_camera) const;
+    TessellationLimits limits() const { return limits_; }
     const Options& options() const { return options_; }
 
     SceneDescription take(const std::map<std::string, dmat4, std::less<>>& spaces);
@@ -80,6 +81,8 @@ class World {
     Options options_;
     dmat4 camera_from_world_;
     WorldCamera camera_;
+    double enlarged_;  // the picture that is made, from the file's own
+    TessellationLimits limits_;
     SceneDescription out_;
     std::map<std::vector<uint64_t>, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;

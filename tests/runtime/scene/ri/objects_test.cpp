@@ -274,5 +274,27 @@ TEST(RiObjects, MirrorsJoinWithTheirSides) {
     EXPECT_FALSE(r.covers(12, 2));  // turned round
 }
 
+// Of a sphere by the options that the picture is made with.
+size_t triangles_of_sphere(const ImportOptions& options) {
+    Diagnostics diagnostics;
+    auto world =
+        import_rib({"x.rib", "Format 100 100 1 WorldBegin Translate 0 0 5 " + kSphere + "WorldEnd"},
+                   options, diagnostics);
+    return world ? world->meshes[0].groups[0].triangles.size() / 3 : 0;
+}
+
+// Triangles grow as pixels do, and shrink as the error allowed grows.
+TEST(RiObjects, CurvesSuitThePictureThatIsMade) {
+    const double plain = double(triangles_of_sphere({}));
+    ImportOptions large, scaled, coarse;
+    large.width = 800;
+    scaled.scale = 8;
+    coarse.curve_error = 2 * kCurveError;
+    EXPECT_GT(double(triangles_of_sphere(large)), 5 * plain);
+    EXPECT_LT(double(triangles_of_sphere(large)), 12 * plain);
+    EXPECT_EQ(triangles_of_sphere(scaled), triangles_of_sphere(large));
+    EXPECT_LT(double(triangles_of_sphere(coarse)), 0.8 * plain);
+}
+
 }  // namespace
 }  // namespace kinora::ri
