@@ -20,7 +20,7 @@ struct PictureScale {
 
 struct TessellationLimits {
     double error = 0.25;           // pixels between a surface and its triangles, at most
-    size_t triangles = 4'000'000;  // of one surface; more are not made, the error is larger then
+    size_t triangles = 1'000'000;  // of one surface; more are not made, the error is larger then
 };
 
 // Semantics of the result's attributes, beside NORMAL (set 0) and TEXCOORD (set 0, stride 2: s, t):

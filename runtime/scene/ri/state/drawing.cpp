@@ -29,12 +29,25 @@ bool Interpreter::is_visible() const {
     return (wanted < 0 || wanted == worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
 }
 
+// Says once that limits have made a surface coarse.
+Tessellation Interpreter::judged(const Call& call, Tessellation made,
+                                 const TessellationLimits& limits) {
+    constexpr double kCoarse = 8;  // times the error that is wanted
+    constexpr const char* kWhy =
+        "surfaces that are very much larger than the picture are coarser than it needs";
+    const bool limited = made.group.triangles.size() / 3 > limits.triangles / 4;
+    if (limited && made.error > kCoarse * limits.error && report_.is_new(kWhy))
+        report_.add(Code::RI_RANGE, row(call.request).name, kWhy);
+    return made;
+}
+
 void Interpreter::primitive(const Call& call) {
     if (!is_visible()) return;
     // Calls of a list that is played again stand where they stood.
     const void* key = replayed_call_ == &call ? &call : nullptr;
     const dmat4 to_camera = state_.to_camera();
     if (key && state_.world->add_again(key, state_.attributes, to_camera)) return;
+    const TessellationLimits limits = state_.world->limits();
     std::optional<MeshDefinition> mesh;
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, state_.attributes);
@@ -46,9 +59,11 @@ void Interpreter::primitive(const Call& call) {
             report_.not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
         if (has_creases(call))
             report_.not_done("SubdivisionMesh", "creases, corners and holes are smooth");
-        mesh = mesh_of(subdivide(surface, state_.world->scale(state_.to_camera())));
+        mesh = mesh_of(
+            judged(call, subdivide(surface, state_.world->scale(to_camera), limits), limits));
     } else if (auto surface = curved_surface(call, state_.attributes)) {
-        mesh = mesh_of(tessellate(*surface, state_.world->scale(state_.to_camera())));
+        mesh = mesh_of(
+            judged(call, tessellate(*surface, state_.world->scale(to_camera), limits), limits));
     } else {
         return report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
     }
@@ -62,11 +77,15 @@ void Interpreter::geometry(const Call& call) {
     if (!is_visible()) return;
     if (call.arguments[0].string() != "teapot")
         return report_.not_done("Geometry", "only \"teapot\" is known");
-    for (const CurvedSurface& patch : teapot(state_.attributes))
-        if (auto mesh = mesh_of(tessellate(patch, state_.world->scale(state_.to_camera())))) {
+    const dmat4 to_camera = state_.to_camera();
+    for (const CurvedSurface& patch : teapot(state_.attributes)) {
+        const TessellationLimits limits = state_.world->limits();
+        Tessellation made = tessellate(patch, state_.world->scale(to_camera), limits);
+        if (auto mesh = mesh_of(judged(call, std::move(made), limits))) {
             mesh->where = call.where;
-            state_.world->add(std::move(*mesh), state_.attributes, state_.to_camera());
+            state_.world->add(std::move(*mesh), state_.attributes, to_camera);
         }
+    }
 }
 
 void Interpreter::not_drawn(const Call& call) {

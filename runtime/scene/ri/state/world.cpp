@@ -323,6 +323,7 @@ void World::add(MeshDefinition mesh, const Attributes& attributes, const dmat4& 
     uint32_t index = uint32_t(out_.meshes.size());
     mesh.id = fmt::format("primitive {}", index);
     mesh.name = attributes.name;
+    for (const PrimitiveGroup& group : mesh.groups) triangles_ += group.triangles.size() / 3;
     out_.meshes.push_back(std::move(mesh));
     use_mesh(index, attributes, to_camera);
 }
@@ -361,6 +362,14 @@ PictureScale World::scale(const dmat4& to_camera) const {
     made.orthographic = !options_.projection.perspective;
     made.pixels = camera_.pixels;
     made.near = std::max(options_.near, 1e-3);
+    return made;
+}
+
+TessellationLimits World::limits() const {
+    constexpr size_t kMostTriangles = 16'000'000, kLeast = 2000;
+    TessellationLimits made;
+    const size_t left = kMostTriangles - std::min(kMostTriangles, triangles_);
+    made.triangles = std::clamp(left / 8, kLeast, made.triangles);
     return made;
 }
 

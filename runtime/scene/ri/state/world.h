@@ -38,6 +38,9 @@ class World {
     bool add_again(const void* key, const Attributes& attributes, const dmat4& to_camera);
 
     PictureScale scale(const dmat4& to_camera) const;
+    // Of the next surface: a part of what is left for all, so that any number of huge ones fits in
+    // memory.
+    TessellationLimits limits() const;
     const Options& options() const { return options_; }
 
     SceneDescription take(const std::map<std::string, dmat4, std::less<>>& spaces);
@@ -67,6 +70,7 @@ class World {
     dmat4 camera_from_world_;
     WorldCamera camera_;
     SceneDescription out_;
+    size_t triangles_ = 0;  // of all meshes
     std::map<std::string, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
