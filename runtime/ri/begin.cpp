@@ -69,6 +69,7 @@ void end() {
     std::unique_ptr<Session> session = sessions().take(current);
     if (!session) return tell_not_started();
     session->context().contained([&] { session->finish(); });
+    session->context().tell_unprinted();
 }
 
 }  // namespace

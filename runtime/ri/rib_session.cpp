@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/base/regular_file.h"
+#include "runtime/ri/seen_spaces.h"
 #include "runtime/ri/session.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/bytestream/write_stream.h"
@@ -84,11 +85,16 @@ class RibSink : public CallSink {
     }
 
     void call(const Call& call) override {
+        spaces_.see(call);
         if (call.request == Request::Option && call.arguments[0].string() == "rib")
             return choose(call);
         if (!writer_ && is_heading(call)) return heading_.add(call);
         start();
         writer_->call(call);
+    }
+    bool transform_points(std::string_view from, std::string_view to,
+                          std::span<float> points) override {
+        return spaces_.transform_points(from, to, points);
     }
     void start() {
         if (writer_) return;
@@ -117,6 +123,7 @@ class RibSink : public CallSink {
     Diagnostics& diagnostics_;
     StreamForm form_ = StreamForm::Ascii;
     CallList heading_;
+    SeenSpaces spaces_;
     std::optional<StreamWriter> writer_;
 };
 

@@ -27,7 +27,7 @@ std::optional<PictureScale> steady_scale(const PictureScale& scale, dvec3 center
 
 struct TessellationLimits {
     double error = 0.25;           // pixels between a surface and its triangles, at most
-    size_t triangles = 4'000'000;  // of one surface; more are not made, the error is larger then
+    size_t triangles = 1'000'000;  // of one surface; more are not made, the error is larger then
 };
 
 // Semantics of the result's attributes, beside NORMAL (set 0) and TEXCOORD (set 0, stride 2: s, t):

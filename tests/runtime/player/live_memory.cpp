@@ -8,10 +8,21 @@
 #include <cstdlib>
 #include <new>
 
-static std::atomic<size_t> g_live{0};
+static std::atomic<size_t> g_live{0}, g_most{0};
 
 size_t live_memory() {
     return g_live;
+}
+
+size_t most_live_memory() {
+    return g_most.exchange(g_live);
+}
+
+static void add(size_t bytes) {
+    const size_t live = g_live += bytes;
+    size_t most = g_most;
+    while (live > most && !g_most.compare_exchange_weak(most, live)) {
+    }
 }
 
 static void* allocate(size_t bytes, size_t alignment) {
@@ -21,7 +32,7 @@ static void* allocate(size_t bytes, size_t alignment) {
         p = std::malloc(bytes);
     else if (posix_memalign(&p, alignment, bytes) != 0)
         p = nullptr;
-    if (p) g_live += malloc_usable_size(p);
+    if (p) add(malloc_usable_size(p));
     return p;
 }
 static void* allocate_or_throw(size_t bytes, size_t alignment) {

@@ -1,8 +1,10 @@
 // tests/runtime/ri/contained_test.cpp: no exception reaches a C program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
+#include <thread>
 
 #include "runtime/base/check.h"
 #include "runtime/scene/ri/calls/context.h"
@@ -71,6 +73,56 @@ TEST_F(Contained, FindingsOfTheSinkAreToldOnce) {
     RiIdentity();
     RiFrameBegin(2);
     EXPECT_EQ(told.count, 1);
+}
+
+class SilentSink : public CallSink {
+  public:
+    void call(const Call&) override {}
+};
+
+std::unique_ptr<Context> begun(Diagnostics& diagnostics) {
+    auto context = std::make_unique<Context>(std::make_unique<SilentSink>(), diagnostics);
+    context->for_c_program = true;
+    Context::make_current(context.get());
+    return context;
+}
+
+TEST(Contexts, ThatEndOnAnotherThreadAreNobodysAfterwards) {
+    Diagnostics diagnostics;
+    std::unique_ptr<Context> context = begun(diagnostics);
+    EXPECT_EQ(Context::current(), context.get());
+    std::thread other([&] {
+        Context::make_current(context.get());
+        context.reset();
+        EXPECT_EQ(Context::current(), nullptr);
+    });
+    other.join();
+    EXPECT_EQ(Context::current(), nullptr);
+    RiIdentity();
+    EXPECT_EQ(RiLastError, RIE_NOTSTARTED);
+}
+
+TEST(Contexts, PrintAtMostTwoHundredFindingsOfACode) {
+    Diagnostics diagnostics;
+    std::unique_ptr<Context> context = begun(diagnostics);
+    context->handler = RiErrorPrint;
+    testing::internal::CaptureStderr();
+    for (int i = 0; i < 1000; ++i) RiTransform(nullptr);
+    RiSides(1);
+    RiDeclare(const_cast<char*>("a"), const_cast<char*>("nothing"));
+    context->tell_unprinted();
+    std::string printed = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::ranges::count(printed, '\n'), 200 + 1 + 1);
+    EXPECT_NE(printed.find("800 more findings"), std::string::npos);
+}
+
+TEST(Contexts, TellAHandlerOfTheProgramsOwnAllFindings) {
+    Diagnostics diagnostics;
+    std::unique_ptr<Context> context = begun(diagnostics);
+    context->handler = keep;
+    told = {};
+    for (int i = 0; i < 1000; ++i) RiTransform(nullptr);
+    EXPECT_EQ(told.count, 1000);
 }
 
 }  // namespace

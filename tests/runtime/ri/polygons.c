@@ -94,7 +94,10 @@ char **argv;
     int number;
 
     if (argc != 3) exit(2);
-    RiBegin(argv[1][0] ? argv[1] : RI_NULL);
+    if (argv[1][0])
+        RiBegin(argv[1]);
+    else
+        RiBegin();
     RiFormat((RtInt)48, (RtInt)36, 1.0);
     RiPixelSamples(2.0, 2.0);
     RiShutter(0.0, 0.0);

@@ -1,4 +1,5 @@
 // tests/runtime/ri/programs_test.cpp: C programs make the pictures that the RIB they write makes.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -42,14 +43,16 @@ class RiPrograms : public testing::TestWithParam<Program> {
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
-    // What is made of a world of a file.
-    void render(const std::string& rib, int world, int number, const std::string& picture) {
+    // What is made of a world of a file, or of its bytes.
+    void render(const std::string& rib, int world, int number, const std::string& picture,
+                bool bytes) {
         SceneRequest request;
         request.scene = rib;
         request.world = world;
         request.quality = *find_quality(kDefaultQuality);
         OpenScene scene(request);
-        ASSERT_EQ(scene.open(), SceneError::None);
+        const std::string text = bytes ? content(rib) : "";
+        ASSERT_EQ(bytes ? scene.open(text) : scene.open(), SceneError::None);
         scene.ready_frames();
         scene.settings().integrator.seed = frame_seed(request, number);
         raytrace::Film film;
@@ -60,6 +63,12 @@ class RiPrograms : public testing::TestWithParam<Program> {
   private:
     fs::path folder_;
 };
+
+// The program's pictures also hold how they were made.
+std::vector<uint8_t> pixels(const std::string& picture) {
+    std::optional<Image8> image = read_png(picture);
+    return image ? image->rgba : std::vector<uint8_t>();
+}
 
 bool has_several_colors(const std::string& picture) {
     std::optional<Image8> image = read_png(picture);
@@ -78,10 +87,18 @@ TEST_P(RiPrograms, MakeThePicturesOfTheirRib) {
     for (size_t world = 0; world < numbers.size(); ++world) {
         std::string number = std::to_string(world + 1);
         std::string made = file("made" + number + ".png"), read = file("read" + number + ".png");
-        render(file("scene.rib"), int(world), numbers[world], read);
         EXPECT_TRUE(has_several_colors(made)) << made;
-        EXPECT_EQ(content(made), content(read)) << made;
+        for (bool bytes : {false, true}) {
+            render(file("scene.rib"), int(world), numbers[world], read, bytes);
+            EXPECT_EQ(content(made), content(read)) << made;
+        }
     }
+    std::string command = std::string(KINORA_RENDER) + " " + file("scene.rib") + " -o " +
+                          file("rendered.####.png") + " >/dev/null 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    for (size_t world = 0; world < numbers.size(); ++world)
+        EXPECT_EQ(pixels(file(fmt::format("rendered.{:04}.png", numbers[world]))),
+                  pixels(file(fmt::format("made{}.png", world + 1))));
     EXPECT_FALSE(fs::exists(file("none1.png")));
 }
 
@@ -100,7 +117,8 @@ std::string name_of(const testing::TestParamInfo<Program>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Of, RiPrograms,
                          testing::Values(Program{"polygons", 2}, Program{"patches", 1},
-                                         Program{"handlers", 1}),
+                                         Program{"handlers", 1}, Program{"bulb", 1},
+                                         Program{"window", 1}, Program{"teapot", 1}),
                          name_of);
 
 }  // namespace

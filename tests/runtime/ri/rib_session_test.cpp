@@ -97,6 +97,38 @@ TEST_F(RibSessions, TakeTheirFormBehindCommentsAndBeforeBlocks) {
     EXPECT_EQ(errors, 2);
 }
 
+// Camera space is 4 units before the world's; the current one is turned by a quarter about z.
+TEST_F(RibSessions, AnswerFromTheTransformationsThatTheyWrite) {
+    RtPoint to_camera = {1, 2, 3}, to_mark = {1, 2, 3}, nowhere = {1, 2, 3};
+    RtPoint* answers[3] = {};
+    written("points.rib", [&] {
+        RiTranslate(0, 0, 4);
+        RiWorldBegin();
+        RiAttributeBegin();
+        RiCoordinateSystem(const_cast<char*>("mark"));
+        RiMotionBegin(2, 0.0, 1.0);
+        RiTranslate(10, 0, 0);
+        RiTranslate(20, 0, 0);
+        RiMotionEnd();
+        RiRotate(90, 0, 0, 1);
+        RiObjectBegin();
+        RiScale(7, 7, 7);
+        RiObjectEnd();
+        answers[0] = RiTransformPoints(RI_OBJECT, RI_CAMERA, 1, &to_camera);
+        answers[1] = RiTransformPoints(RI_OBJECT, const_cast<char*>("mark"), 1, &to_mark);
+        answers[2] = RiTransformPoints(const_cast<char*>("none"), RI_WORLD, 1, &nowhere);
+        RiAttributeEnd();
+        RiWorldEnd();
+    });
+    EXPECT_EQ(answers[0], &to_camera);
+    EXPECT_EQ(answers[1], &to_mark);
+    EXPECT_EQ(answers[2], nullptr);
+    const RtFloat camera[] = {8, 1, 7}, mark[] = {8, 1, 3};
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(to_camera[k], camera[k], 1e-5) << k;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(to_mark[k], mark[k], 1e-5) << k;
+    EXPECT_EQ(errors, 1);
+}
+
 TEST_F(RibSessions, ThatCannotBeWrittenSayItOnce) {
     EXPECT_EQ(written("no/such/folder/a.rib", [] {}), "");
     EXPECT_EQ(errors, 1);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <utility>
 
 #include "runtime/scene/description/findings.h"
 
@@ -13,8 +14,6 @@ RtInt RiLastError = RIE_NOERROR;
 
 namespace kinora::ri {
 namespace {
-
-thread_local Context* current_context = nullptr;
 
 struct ErrorRow {
     std::string_view code;
@@ -48,6 +47,7 @@ constexpr ErrorRow kErrors[] = {
     {"RIB_DEPTH", RIE_NESTING},
     {"RIB_FOREIGN", RIE_BADFILE},
     {"RIB_MORE", RIE_LIMIT},
+    {"RI_MORE", RIE_LIMIT},
     {"RI_MEMORY", RIE_NOMEM},
     {"RI_NOT_WRITTEN", RIE_SYSTEM},
     {"RI_DISPLAY", RIE_NOERROR},
@@ -116,25 +116,45 @@ ErrorCode error_code(const FindingInfo& finding) {
 }
 
 Context::Context(std::unique_ptr<CallSink> sink, Diagnostics& diagnostics)
-    : sink_(std::move(sink)), diagnostics_(diagnostics), counts_(1) {}
+    : life_(std::make_shared<Life>(this)),
+      sink_(std::move(sink)),
+      diagnostics_(diagnostics),
+      counts_(1) {}
 
 Context::~Context() {
-    if (current_context == this) current_context = nullptr;
+    life_->context = nullptr;
+}
+
+std::shared_ptr<Context::Life>& Context::current_life() {
+    thread_local std::shared_ptr<Life> life;
+    return life;
 }
 
 Context* Context::current() {
-    return current_context;
+    const Life* life = current_life().get();
+    return life ? life->context.load() : nullptr;
 }
 
 void Context::make_current(Context* context) {
-    current_context = context;
+    current_life() = context ? context->life_ : nullptr;
+}
+
+// A program's own handler is told all; a loop of faulty calls does not fill the terminal.
+bool Context::is_printed(const Finding& finding) {
+    if (handler != RiErrorPrint || ++printed_[finding.info] <= kMostPrinted) return true;
+    ++unprinted_;
+    return false;
+}
+
+void Context::tell_unprinted() {
+    if (unprinted_) error(Code::RI_MORE, std::exchange(unprinted_, 0));
 }
 
 void Context::tell(const Finding& finding) {
     ErrorCode told = error_code(*finding.info);
     told.severity = severity_code(finding.severity);
     if (told.severity != RIE_INFO) RiLastError = told.code;
-    if (!handler) return;
+    if (!handler || !is_printed(finding)) return;
     std::string message = finding.message;
     if (finding.where.file != kNoFile) {
         const SourceFiles& files = diagnostics_.files;

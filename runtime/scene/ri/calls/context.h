@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <atomic>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,7 +51,7 @@ class Context {
     ~Context();
     Context(const Context&) = delete;
 
-    // The one of this thread; null: none was begun.
+    // The one of this thread; null: none was begun, or it has ended, on whichever thread.
     static Context* current();
     static void make_current(Context* context);
 
@@ -103,6 +105,9 @@ class Context {
     RtArchiveCallback archive_callback = nullptr;  // hears comments of the archive being read
     bool for_c_program = false;                    // findings are dropped when they were told, too
 
+    // The end of a C program's context: how many findings were not printed.
+    void tell_unprinted();
+
   private:
     struct Busy {
         explicit Busy(Context& own) : context(own) { ++context.busy_; }
@@ -115,8 +120,21 @@ class Context {
                         RtPointer values[], uint32_t vertices);
     void follow_blocks(Request request, std::span<const Values> arguments);
 
+    // Threads that have it for their current one keep this, so that none uses it after its end.
+    struct Life {
+        std::atomic<Context*> context;
+    };
+    static std::shared_ptr<Life>& current_life();
+
+    // RiErrorPrint prints so many findings of each code.
+    static constexpr int kMostPrinted = 200;
+    bool is_printed(const Finding& finding);
+
+    std::shared_ptr<Life> life_;
     std::unique_ptr<CallSink> sink_;
     Diagnostics& diagnostics_;
+    std::map<const FindingInfo*, int> printed_;
+    int unprinted_ = 0;
     size_t told_ = 0;  // of the findings
     bool telling_ = false;
     int busy_ = 0;

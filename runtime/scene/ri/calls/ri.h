@@ -105,6 +105,10 @@ extern RtInt RiLastError;
 
 /* Contexts and declarations. RiBegin: RI_NULL renders, a file's name writes RIB. */
 RtVoid RiBegin(RtToken name);
+#if !defined(__cplusplus) && (!defined(__STDC_VERSION__) || __STDC_VERSION__ < 199901L)
+/* Programs before prototypes also call RiBegin(), which is RiBegin(RI_NULL). */
+#define RiBegin(name) (RiBegin)((RtToken)(name + 0))
+#endif
 RtVoid RiEnd(void);
 RtContextHandle RiGetContext(void);
 RtVoid RiContext(RtContextHandle handle);

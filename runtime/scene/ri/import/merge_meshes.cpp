@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 
 namespace kinora {
 namespace {
@@ -83,6 +86,28 @@ void append_indices(std::vector<uint32_t>& to, const std::vector<uint32_t>& from
     for (uint32_t index : from) to.push_back(uint32_t(index + first));
 }
 
+struct Box {
+    dvec3 low{1e300}, high{-1e300};
+
+    void add(const dvec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+    void add(const Box& other) { add(other.low), add(other.high); }
+    double size() const { return glm::length(high - low); }
+};
+
+Box box_of(const MeshDefinition& mesh) {
+    Box box;
+    for (const dvec3& p : mesh.positions) box.add(p);
+    return box;
+}
+
+// Vertices are floats about the middle of their mesh: small things beside huge ones would be lost.
+bool fit_together(const Box& a, const Box& b) {
+    constexpr double kMost = 1e5;  // of sizes
+    Box both = a;
+    both.add(b);
+    return both.size() <= kMost * std::min(a.size(), b.size());
+}
+
 void append(MeshDefinition& to, MeshDefinition& from) {
     PrimitiveGroup &all = to.groups.front(), &group = from.groups.front();
     append_indices(all.triangles, group.triangles, to.positions.size());
@@ -108,13 +133,18 @@ class Merging {
 
     void merge(NodeDefinition& node) {
         std::vector<MeshUse> left;
+        std::vector<Box> boxes;  // of them
         for (MeshUse& use : node.meshes) {
             if (joins(use)) share_material(use);
-            MeshUse* open = joins(use) ? find_open(left, use) : nullptr;
-            if (open)
-                append(mesh(*open), mesh(use));
-            else
+            const Box box = joins(use) ? box_of(mesh(use)) : Box();
+            if (std::optional<size_t> open =
+                    joins(use) ? find_open(left, boxes, use, box) : std::nullopt) {
+                append(mesh(left[*open]), mesh(use));
+                boxes[*open].add(box);
+            } else {
                 left.push_back(std::move(use));
+                boxes.push_back(box);
+            }
         }
         node.meshes = std::move(left);
     }
@@ -135,19 +165,21 @@ class Merging {
         material = first;
     }
     // A mesh among the last few of the node.
-    MeshUse* find_open(std::vector<MeshUse>& left, const MeshUse& use) {
+    std::optional<size_t> find_open(const std::vector<MeshUse>& left, const std::vector<Box>& boxes,
+                                    const MeshUse& use, const Box& box) {
         constexpr size_t kLooked = 8;
         for (size_t i = left.size(); i-- > 0 && left.size() - i <= kLooked;) {
-            MeshUse& open = left[i];
-            if (!joins(open) || open.materials[0].material != use.materials[0].material ||
+            const MeshUse& open = left[i];
+            if (!joins(open) || !fit_together(boxes[i], box) ||
+                open.materials[0].material != use.materials[0].material ||
                 open.lights != use.lights || mesh(open).name != mesh(use).name)
                 continue;
             const PrimitiveGroup& group = mesh(open).groups.front();
             if (group.triangles.size() < kMostCorners &&
                 same_attributes(group, mesh(use).groups.front()))
-                return &open;
+                return i;
         }
-        return nullptr;
+        return std::nullopt;
     }
 
     SceneDescription& description_;

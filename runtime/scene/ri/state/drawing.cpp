@@ -31,6 +31,18 @@ bool Interpreter::is_visible() const {
     return drawn_.draws(worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
 }
 
+// Says once that limits have made a surface coarse.
+Tessellation Interpreter::judged(const Call& call, Tessellation made,
+                                 const TessellationLimits& limits) {
+    constexpr double kCoarse = 8;  // times the error that is wanted
+    constexpr const char* kWhy =
+        "surfaces that are very much larger than the picture are coarser than it needs";
+    const bool limited = made.group.triangles.size() / 3 > limits.triangles / 4;
+    if (limited && made.error > kCoarse * limits.error && report_.is_new(kWhy))
+        report_.add(Code::RI_RANGE, row(call.request).name, kWhy);
+    return made;
+}
+
 // Of a primitive that may come again. Where it has a steady size in the picture, `scale` becomes
 // that. Nothing: it is made as it comes.
 std::optional<MeshKey> Interpreter::key_of(const Call& call, PictureScale& scale) const {
@@ -47,15 +59,15 @@ std::optional<MeshKey> Interpreter::key_of(const Call& call, PictureScale& scale
     return MeshKey{content_of(call, now), scale.pixels};
 }
 
-std::optional<MeshDefinition> Interpreter::mesh_of_call(const Call& call,
-                                                        const PictureScale& scale) {
+std::optional<MeshDefinition> Interpreter::mesh_of_call(const Call& call, const PictureScale& scale,
+                                                        const TessellationLimits& limits) {
     std::optional<MeshDefinition> mesh;
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, state_.attributes);
     } else if (call.request == Request::SubdivisionMesh) {
-        mesh = mesh_of(subdivide(subdivision_of(call), scale, state_.world->limits()));
+        mesh = mesh_of(judged(call, subdivide(subdivision_of(call), scale, limits), limits));
     } else if (auto surface = curved_surface(call, state_.attributes)) {
-        mesh = mesh_of(tessellate(*surface, scale, state_.world->limits()));
+        mesh = mesh_of(judged(call, tessellate(*surface, scale, limits), limits));
     } else {
         report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
     }
@@ -77,10 +89,12 @@ SubdivisionSurface Interpreter::subdivision_of(const Call& call) {
 // One of a film's last picture, or a new one.
 std::optional<MeshDefinition> Interpreter::kept_mesh(const MeshKey& key, const Call& call,
                                                      const PictureScale& scale) {
+    constexpr size_t kMostTriangles = 500'000;  // whatever else is there
     const bool costly = frame_ && !is_polygon(call.request);
     if (costly)
         if (auto kept = meshes_.find(key)) return *kept;
-    std::optional<MeshDefinition> mesh = mesh_of_call(call, scale);
+    std::optional<MeshDefinition> mesh =
+        mesh_of_call(call, scale, {state_.world->limits().error, kMostTriangles});
     if (costly && mesh) meshes_.keep(key, *mesh);
     return mesh;
 }
@@ -92,7 +106,7 @@ void Interpreter::primitive(const Call& call) {
     if (const std::optional<MeshKey> key = key_of(call, scale))
         state_.world->add(*key, state_.attributes, placement,
                           [&] { return kept_mesh(*key, call, scale); });
-    else if (auto mesh = mesh_of_call(call, scale))
+    else if (auto mesh = mesh_of_call(call, scale, state_.world->limits()))
         state_.world->add(std::move(*mesh), state_.attributes, placement);
 }
 
@@ -102,11 +116,13 @@ void Interpreter::geometry(const Call& call) {
         return report_.not_done("Geometry", "only \"teapot\" is known");
     const Placement placement{state_.transform, state_.to_camera()};
     const PictureScale scale = state_.world->scale(placement.to_camera);
-    for (const CurvedSurface& patch : teapot(state_.attributes))
-        if (auto mesh = mesh_of(tessellate(patch, scale, state_.world->limits()))) {
+    for (const CurvedSurface& patch : teapot(state_.attributes)) {
+        const TessellationLimits limits = state_.world->limits();
+        if (auto mesh = mesh_of(judged(call, tessellate(patch, scale, limits), limits))) {
             mesh->where = call.where;
             state_.world->add(std::move(*mesh), state_.attributes, placement);
         }
+    }
 }
 
 void Interpreter::not_drawn(const Call& call) {

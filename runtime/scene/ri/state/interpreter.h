@@ -68,13 +68,15 @@ class Interpreter : public CallSink {
 
     // Primitives (drawing.cpp).
     void primitive(const Call& call);
+    Tessellation judged(const Call& call, Tessellation made, const TessellationLimits& limits);
     void geometry(const Call& call);
     void not_drawn(const Call& call);
     bool is_visible() const;
     std::optional<MeshKey> key_of(const Call& call, PictureScale& scale) const;
     std::optional<MeshDefinition> kept_mesh(const MeshKey& key, const Call& call,
                                             const PictureScale& scale);
-    std::optional<MeshDefinition> mesh_of_call(const Call& call, const PictureScale& scale);
+    std::optional<MeshDefinition> mesh_of_call(const Call& call, const PictureScale& scale,
+                                               const TessellationLimits& limits);
     SubdivisionSurface subdivision_of(const Call& call);
 
     void dispatch(const Call& call);

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace kinora::ri {
@@ -78,6 +81,15 @@ MeshDefinition empty_mesh(const MeshDefinition& like) {
     return made;
 }
 
+// The same for things of which none is more than some thousand times as large as another.
+int class_of_size(const std::vector<dvec3>& positions) {
+    constexpr double kOctaves = 12;
+    dvec3 low(1e300), high(-1e300);
+    for (const dvec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+    const double size = glm::length(high - low);
+    return std::isfinite(size) && size > 0 ? int(std::floor(std::log2(size) / kOctaves)) : 0;
+}
+
 bool is_color(const std::string& semantic) {
     return semantic == "Cs" || semantic == "Os";
 }
@@ -95,7 +107,10 @@ bool MergedMeshes::takes(const MeshDefinition& mesh) {
 uint32_t MergedMeshes::add(std::vector<MeshDefinition>& meshes, const MeshDefinition& mesh,
                            const Look& look, const dmat4& matrix, const dvec3& color) {
     const PrimitiveGroup& group = mesh.groups[0];
-    auto [entry, is_new] = open_.try_emplace({look, variables_of(group)}, kNone);
+    positions_.clear();
+    for (const dvec3& p : mesh.positions) positions_.emplace_back(matrix * dvec4(p, 1));
+    auto [entry, is_new] =
+        open_.try_emplace({look, {variables_of(group), class_of_size(positions_)}}, kNone);
     uint32_t& open = entry->second;
     if (!is_new && meshes[open].groups[0].triangles.size() > kMostCorners) is_new = true;
     if (is_new) {
@@ -106,7 +121,7 @@ uint32_t MergedMeshes::add(std::vector<MeshDefinition>& meshes, const MeshDefini
     PrimitiveGroup& all = whole.groups[0];
     const bool mirrored = glm::determinant(dmat3(matrix)) < 0;
     append_indices(all.triangles, group.triangles, whole.positions.size(), mirrored);
-    for (const dvec3& p : mesh.positions) whole.positions.push_back(dvec3(matrix * dvec4(p, 1)));
+    whole.positions.insert(whole.positions.end(), positions_.begin(), positions_.end());
     for (size_t a = 0; a < group.attributes.size(); ++a)
         append_attribute(all.attributes[a], group.attributes[a], matrix, mirrored);
     if (!has_color(group)) append_color(all.attributes.back(), color, group.triangles.size());

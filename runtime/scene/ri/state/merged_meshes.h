@@ -31,7 +31,10 @@ class MergedMeshes {
                  const dmat4& matrix, const dvec3& color);
 
   private:
-    std::map<std::pair<Look, std::string>, uint32_t> open_;  // by the variables, too
+    // Its variables, and about how large: vertices are floats about the middle of their mesh.
+    using Kind = std::pair<std::string, int>;
+    std::map<std::pair<Look, Kind>, uint32_t> open_;
+    std::vector<dvec3> positions_;  // of the mesh that is added
 };
 
 }  // namespace kinora::ri

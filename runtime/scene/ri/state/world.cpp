@@ -148,8 +148,8 @@ World::World(const Options& options, const std::string& path, const ImportOption
       camera_from_world_(camera_from_world),
       camera_(camera_of(options)),
       enlarged_(enlargement(camera_.picture, import)),
+      curve_error_(import.curve_error),
       in_film_(in_film) {
-    limits_.error = import.curve_error;
     out_.path = path;
     out_.up_axis = UpAxis::Y;
     limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
@@ -341,6 +341,7 @@ uint32_t World::push_mesh(MeshDefinition mesh, const Attributes& attributes) {
     const uint32_t index = uint32_t(out_.meshes.size());
     mesh.id = fmt::format("primitive {}", index);
     mesh.name = attributes.name;
+    for (const PrimitiveGroup& group : mesh.groups) triangles_ += group.triangles.size() / 3;
     out_.meshes.push_back(std::move(mesh));
     return index;
 }
@@ -377,6 +378,7 @@ void World::merge(const MeshDefinition& mesh, const Attributes& attributes,
                                   light_list(attributes), attributes.name};
     const uint32_t begun =
         merged_.add(out_.meshes, mesh, look, placement.to_world, attributes.color);
+    triangles_ += mesh.groups[0].triangles.size() / 3;
     if (begun == kNone) return;
     out_.meshes[begun].id = fmt::format("primitives {}", begun);
     out_.meshes[begun].name = attributes.name;
@@ -421,6 +423,15 @@ PictureScale World::scale(const dmat4& to_camera) const {
     made.orthographic = !options_.projection.perspective;
     made.pixels = camera_.pixels * enlarged_;
     made.near = std::max(options_.near, 1e-3);
+    return made;
+}
+
+TessellationLimits World::limits() const {
+    constexpr size_t kMostTriangles = 16'000'000, kLeast = 2000;
+    TessellationLimits made;
+    made.error = curve_error_;
+    const size_t left = kMostTriangles - std::min(kMostTriangles, triangles_);
+    made.triangles = std::clamp(left / 8, kLeast, made.triangles);
     return made;
 }
 

@@ -46,7 +46,9 @@ class World {
              MakeMesh make);
 
     PictureScale scale(const dmat4& to_camera) const;
-    TessellationLimits limits() const { return limits_; }
+    // Of the next surface: a part of what is left for all, so that any number of huge ones fits in
+    // memory.
+    TessellationLimits limits() const;
     const Options& options() const { return options_; }
 
     SceneDescription take(const std::map<std::string, dmat4, std::less<>>& spaces);
@@ -82,8 +84,9 @@ class World {
     dmat4 camera_from_world_;
     WorldCamera camera_;
     double enlarged_;  // the picture that is made, from the file's own
-    TessellationLimits limits_;
+    double curve_error_;
     SceneDescription out_;
+    size_t triangles_ = 0;  // of all meshes
     std::map<std::vector<uint64_t>, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys

@@ -7,12 +7,21 @@
 #include <random>
 #include <sstream>
 
+#include "runtime/scene/ri/bytestream/zip.h"
+#include "tests/fuzz_settings.h"
+#include "tests/runtime/scene/ri/random_calls.h"
 #include "tests/runtime/scene/ri/recorded_calls.h"
 #include "tests/runtime/scene/ri/scene_text.h"
 #include "tests/shared.h"
 
 namespace kinora::ri {
 namespace {
+
+std::string zipped(const std::string& bytes) {
+    std::string error, packed = zip(bytes, error);
+    EXPECT_EQ(error, "");
+    return packed;
+}
 
 void expect_round_trip(const std::string& stream, const std::string& name) {
     ReadCalls read = read_calls(stream);
@@ -22,6 +31,7 @@ void expect_round_trip(const std::string& stream, const std::string& name) {
         ReadCalls again = read_calls(written);
         EXPECT_EQ(again.calls, read.calls) << name << "\n" << written;
         EXPECT_EQ(again.messages, Texts()) << name;
+        EXPECT_EQ(read_calls(zipped(written)).calls, read.calls) << name;
         EXPECT_EQ(rewritten(written, form), written) << name;
     }
 }
@@ -48,6 +58,58 @@ TEST(RibRoundTrip, OfIntegersOfAllSizes) {
         for (int64_t near : {value - 1, value, -value, -value - 1})
             stream += fmt::format("Sides {}\n", std::clamp<int64_t>(near, INT32_MIN, INT32_MAX));
     expect_round_trip(stream, "integers");
+}
+
+// Random calls of each request, and the streams that they make.
+struct WrittenCalls {
+    explicit WrittenCalls(uint32_t seed) {
+        auto sink = std::make_unique<RecordingSink>(calls);
+        sink->then = [&](const Call& call) {
+            ascii_writer.call(call);
+            binary_writer.call(call);
+            ++counts[size_t(call.request)];
+        };
+        Context context(std::move(sink), diagnostics);
+        Context::make_current(&context);
+        RandomCalls random(seed);
+        for (int i = 0; i < 1500; ++i) random.call(context);
+    }
+
+    Diagnostics diagnostics;
+    Texts calls;
+    std::vector<int> counts = std::vector<int>(requests().size());
+    std::string ascii, binary;
+    StreamWriter ascii_writer{StreamForm::Ascii,
+                              [this](std::string_view bytes) { ascii += bytes; }};
+    StreamWriter binary_writer{StreamForm::Binary,
+                               [this](std::string_view bytes) { binary += bytes; }};
+};
+
+void expect_same(const Texts& got, const Texts& wanted, const std::string& what) {
+    ASSERT_EQ(got.size(), wanted.size()) << what;
+    for (size_t i = 0; i < got.size(); ++i) ASSERT_EQ(got[i], wanted[i]) << what << " call " << i;
+}
+
+TEST(RibRoundTrip, OfRandomCallsOfAllRequests) {
+    std::vector<int> counts(requests().size());
+    const uint64_t seeds = fuzz_setting("KINORA_FUZZ_RIB_CALLS", 15);
+    for (uint32_t seed = 1; seed <= seeds; ++seed) {
+        const WrittenCalls made(seed);
+        ReadCalls nothing_wrong;
+        note_findings(made.diagnostics, nothing_wrong);
+        ASSERT_EQ(nothing_wrong.messages, Texts()) << seed;
+        const std::string packed = zipped(made.binary);
+        for (const std::string* stream : {&made.ascii, &made.binary, &packed}) {
+            ReadCalls read = read_calls(*stream);
+            ASSERT_NO_FATAL_FAILURE(expect_same(read.calls, made.calls, fmt::format("{}", seed)));
+            ASSERT_EQ(read.messages, Texts()) << seed;
+        }
+        for (size_t i = 0; i < counts.size(); ++i) counts[i] += made.counts[i];
+    }
+    for (size_t i = 0; i < counts.size(); ++i) {
+        const bool is_read = Request(i) != Request::ArchiveRecord;
+        EXPECT_EQ(counts[i] > 0, is_read) << requests()[i].name;
+    }
 }
 
 TEST(RibRoundTrip, BlocksIndent) {
