@@ -48,7 +48,8 @@ struct SceneRequest {
     std::string imager;             // one of ours by name, FILE.sl, "none"; "": the scene's own
     std::string atmosphere;         // likewise
     int world = -1;                 // of the pictures in a RIB file; -1: the last
-    std::vector<std::string> aovs;  // output parameters of surfaces
+    std::vector<std::string> aovs;  // outputs of surfaces
+    bool displays = false;          // the displays that a file has besides its picture are wanted
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;
     std::optional<double> meter;

@@ -19,6 +19,7 @@ SceneRequest program_request() {
     request.scene = "program.rib";
     request.quality = *find_quality(kDefaultQuality);
     request.color = ColorEncoding::Linear;
+    request.displays = true;
     return request;
 }
 

@@ -139,7 +139,8 @@ class Merging {
         for (size_t i = left.size(); i-- > 0 && left.size() - i <= kLooked;) {
             MeshUse& open = left[i];
             if (!joins(open) || open.materials[0].material != use.materials[0].material ||
-                open.lights != use.lights || mesh(open).name != mesh(use).name)
+                open.lights != use.lights || open.visibility != use.visibility ||
+                mesh(open).name != mesh(use).name)
                 continue;
             const PrimitiveGroup& group = mesh(open).groups.front();
             if (group.triangles.size() < kMostCorners &&

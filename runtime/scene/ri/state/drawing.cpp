@@ -26,7 +26,7 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
 bool Interpreter::is_visible() const {
     const int wanted = state_.import.world;
     const Attributes& now = state_.attributes;
-    return (wanted < 0 || wanted == worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
+    return (wanted < 0 || wanted == worlds_ - 1) && now.in_detail_range && now.visibility.any();
 }
 
 void Interpreter::primitive(const Call& call) {

@@ -77,6 +77,16 @@ Pixels cropped(int size, double low, double high) {
     return made;
 }
 
+// What Quantize said of it. Variables that it did not name are as colours.
+std::optional<Quantization> quantization_of(const FileDisplay& display, const Options& options) {
+    const DisplayContent content = content_of(display);
+    const bool alone = content.depth && !content.is_picture();
+    for (const std::string& what : {alone ? "z" : content.variable, std::string("rgba")})
+        if (auto said = options.quantizations.find(what); said != options.quantizations.end())
+            return said->second;
+    return {};
+}
+
 FilePicture picture_of(const Options& options) {
     FilePicture made;
     if (options.samples)
@@ -84,11 +94,10 @@ FilePicture picture_of(const Options& options) {
     made.filter = options.filter;
     made.filter_width = options.filter_width;
     made.pixel_aspect = options.pixel_aspect;
-    made.gain = options.gain;
-    made.gamma = options.gamma;
+    made.exposure = options.exposure;
     made.displays = options.displays;
     for (FileDisplay& display : made.displays)
-        display.quantization = display.mode == "z" ? options.depths : options.colors;
+        if (!display.quantization) display.quantization = quantization_of(display, options);
     return made;
 }
 
@@ -156,6 +165,8 @@ void World::add_camera() {
            far = std::min(options_.far / size.z, 1e30);
     camera.znear = values(std::span(&near, 1));
     camera.zfar = values(std::span(&far, 1));
+    for (const dvec4& plane : options_.planes)
+        camera.planes.emplace_back(plane.x, plane.y, -plane.z, plane.w);
     for (const Binding& imager : options_.imagers)
         camera.picture.imagers.push_back(shader_use(*imager, nullptr));
     out_.cameras.push_back(std::move(camera));
@@ -313,6 +324,7 @@ void World::use_mesh(uint32_t mesh, const Attributes& attributes, const dmat4& t
     worn.material = material(attributes, to_camera);
     use.materials = {worn};
     use.lights = light_list(attributes);
+    use.visibility = attributes.visibility;
     out_.nodes[node(to_camera)].meshes.push_back(std::move(use));
     if (out_.picture.atmosphere.empty() && !attributes.atmospheres.empty())
         for (const Binding& binding : attributes.atmospheres)
