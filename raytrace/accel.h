@@ -10,12 +10,18 @@
 
 namespace kinora::raytrace {
 
-// Ray masks. A surface is met by rays whose mask has its bit. kMaskCamera marks camera rays: they
-// alone obey Geometry::hide_backfaces.
-inline constexpr uint32_t kMaskOpaque = 1;
-inline constexpr uint32_t kMaskNotOpaque = 2;
+// Ray masks. A surface is met by rays whose mask shares a bit with its own: Geometry::seen_by, four
+// bits up where it is not opaque. kMaskCamera marks camera rays: they alone obey
+// Geometry::hide_backfaces.
+inline constexpr uint32_t kMaskOpaque = kSeenByAll;
+inline constexpr uint32_t kMaskNotOpaque = kSeenByAll << 4;
 inline constexpr uint32_t kMaskAll = kMaskOpaque | kMaskNotOpaque;
 inline constexpr uint32_t kMaskCamera = 1u << 31;
+// What the rays of some meet, opaque or not.
+constexpr uint32_t mask_of_viewer(uint32_t seen_by) {
+    return seen_by | seen_by << 4;
+}
+inline constexpr uint32_t kMaskEye = mask_of_viewer(kSeenByCamera) | kMaskCamera;
 
 inline constexpr int kPacket = 16;
 

@@ -14,7 +14,8 @@ constexpr int kCalmUpdates = 4;
 
 bool same_role(const Geometry& a, const Geometry& b) {
     return a.id == b.id && a.kind == b.kind && a.opaque == b.opaque && a.shape == b.shape &&
-           a.hide_backfaces == b.hide_backfaces && a.mirrored == b.mirrored;
+           a.seen_by == b.seen_by && a.hide_backfaces == b.hide_backfaces &&
+           a.mirrored == b.mirrored;
 }
 
 }  // namespace
@@ -96,14 +97,14 @@ void Updater::start_anew(std::span<const Geometry> geometry) {
 }
 
 void Updater::add_static_groups() {
-    std::map<std::pair<bool, bool>, StaticGroup*> groups;
+    std::map<std::pair<uint32_t, bool>, StaticGroup*> groups;
     std::map<std::pair<const StaticGroup*, const vec4*>, uint32_t> bases;
     for (uint32_t i = 0; i < s.rows.size(); ++i) {
         const GeometryState& row = s.rows[i];
         const Geometry& g = row.seen;
         if (g.kind != GeometryKind::Static || !row.sound) continue;
         watch(g);
-        StaticGroup*& group = groups[{g.opaque, g.hide_backfaces}];
+        StaticGroup*& group = groups[{mask_of(g), g.hide_backfaces}];
         if (!group) {
             group = s.groups.emplace_back(std::make_unique<StaticGroup>()).get();
             group->slot = uint32_t(s.map.slots.size());

@@ -51,7 +51,8 @@ ReferenceHit brute_force(std::span<const Geometry> geometry, const ReferenceRay&
     best.t = ray.tfar;
     for (uint32_t row = 0; row < geometry.size(); ++row) {
         const Geometry& g = geometry[row];
-        if (!(ray.mask & (g.opaque ? kMaskOpaque : kMaskNotOpaque))) continue;
+        const uint32_t kind = g.opaque ? kMaskOpaque : kMaskNotOpaque;
+        if (!(ray.mask & mask_of_viewer(g.seen_by) & kind)) continue;
         for (uint32_t triangle = 0; triangle < g.triangles.size() / 3; ++triangle) {
             dvec3 p[3];
             corners(g, triangle, p);

@@ -37,6 +37,8 @@ constexpr bool is_error(CameraStatus s) {
     return s != CameraStatus::Ok && s != CameraStatus::ClipRangeRepaired;
 }
 
+inline constexpr size_t kMostCameraPlanes = 16;
+
 // Camera space is RenderMan's: x right, y up, z into the picture (docs/decisions.md#spaces).
 struct Camera {
     bool orthographic = false;
@@ -56,6 +58,10 @@ struct Camera {
     double znear = 0;  // 0 < znear < zfar always; what the shaders see. Rays are not clipped
     double zfar = 0;   // unless `clip` is set.
     bool clip = false;
+    // Rays see nothing on the sides that these planes' normals point to: n . p + w > 0. Accel
+    // space.
+    std::array<dvec4, kMostCameraPlanes> planes{};
+    size_t plane_count = 0;
     dmat4 world_from_camera{1.0};  // rigid but for the mirror of z
     dmat4 camera_from_world{1.0};
 };

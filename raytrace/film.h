@@ -18,8 +18,10 @@ enum class NanPolicy : uint8_t { Zero, Magenta, Keep };
 
 enum class AovFilter : uint8_t {
     Mean,         // mean over the pixel's samples; a sample that misses counts 0
-    FirstSample,  // the value of the pixel's first sample: for ids and depths
+    FirstSample,  // the value of the pixel's first sample: for ids
+    Least,        // the least of the pixel's samples, kNoDepth where all miss: for depths
 };
+inline constexpr float kNoDepth = 1e38f;  // RI_INFINITY
 
 // One float component of one AOV of the nearest surface whose Oi is not 0: "z", "N.x". A colour is
 // three planes.
@@ -27,7 +29,7 @@ struct AovPlane {
     std::string name;
     AovFilter filter = AovFilter::Mean;
     std::vector<float> values;  // width * height, rows from the top
-    bool in_file = true;        // false: for imagers alone
+    bool in_file = true;        // false: for imagers and displays
 };
 
 // Linear, associated ("premultiplied") RGBA: alpha is coverage, the mean of Oi's components.

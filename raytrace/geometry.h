@@ -11,6 +11,10 @@ namespace kinora::raytrace {
 
 inline constexpr uint32_t kNone = ~0u;  // "no geometry", "no primitive"
 
+// Whose rays meet a surface: bits of Geometry::seen_by.
+inline constexpr uint32_t kSeenByCamera = 1, kSeenByReflections = 2, kSeenByDiffuse = 4,
+                          kSeenByShadows = 8, kSeenByAll = 15;
+
 enum class GeometryKind : uint8_t {
     Static,     // never moves; all such rows are concatenated into one structure of MEDIUM quality
     Deforming,  // new positions now and then (positions_version): own structure, refitted
@@ -24,7 +28,8 @@ enum class GeometryKind : uint8_t {
 struct Geometry {
     uint32_t id = 0;  // the caller's name for this row; hits carry it
     GeometryKind kind = GeometryKind::Static;
-    bool opaque = true;           // selects the ray mask: kMaskOpaque or kMaskNotOpaque
+    uint32_t seen_by = kSeenByAll;
+    bool opaque = true;           // with seen_by the ray mask: of kMaskOpaque or kMaskNotOpaque
     bool hide_backfaces = false;  // camera rays pass through the side Ng points away from
     bool mirrored = false;        // positions were baked through a mirroring matrix: Ng is negated
 

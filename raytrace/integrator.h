@@ -34,6 +34,9 @@ class SurfaceShading {
     virtual void shade_misses(const HitBatch& /*ends*/, int /*thread*/, ShadeResult& /*result*/) {}
     // RayBatch::medium of a ray that goes on behind hit k.
     virtual uint32_t medium_behind(const HitBatch& /*hits*/, size_t /*k*/) const { return 0; }
+    // Whether hit k shows a hole in the picture, and whether any hit may.
+    virtual bool has_mattes() const { return false; }
+    virtual bool is_matte(const HitBatch& /*hits*/, size_t /*k*/) const { return false; }
     // Nobody waits for the picture any more: what is still asked for may be anything.
     virtual bool stopped() const { return false; }
     // After the last shade() of a tile, on the same thread.

@@ -22,6 +22,7 @@ void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t
     }
     order.reserve(tile_pixels);
     sum.resize(std::max(sum.size(), 4 * tile_pixels));
+    held.resize(std::max(held.size(), 3 * tile_pixels));
     if (shaded_aov.size() != aovs) {
         shaded_aov.resize(aovs);
         sum_aov.resize(aovs);
@@ -63,9 +64,10 @@ PixelView pixel_view(const Camera& camera, bool spreads) {
     PixelView view{};
     view.without_spread = !spreads;
     view.orthographic = camera.orthographic;
-    view.clip = camera.clip;
-    view.znear = camera.znear;
-    view.zfar = camera.zfar;
+    // Where planes cut rays, each ray gets its range anew.
+    view.clip = camera.clip || camera.plane_count > 0;
+    view.znear = camera.clip ? camera.znear : 0;
+    view.zfar = camera.clip ? camera.zfar : std::numeric_limits<double>::infinity();
     view.centre_x = camera.axis.x;
     view.centre_y = camera.axis.y;
     for (int c = 0; c < 3; ++c) {
@@ -102,12 +104,17 @@ vec4 TileJob::run_sample(const Tile& tile, int sample) {
     shading_.end_tile(thread_);
     vec3 color(m_.color[0][0], m_.color[1][0], m_.color[2][0]);
     float through = (m_.through[0][0] + m_.through[1][0] + m_.through[2][0]) / 3;
-    return vec4(color, 1 - through);
+    float held = shading_.has_mattes() ? float(m_.held[0] + m_.held[1] + m_.held[2]) / 3 : 0;
+    return vec4(color, 1 - through - held);
 }
 
 void TileJob::begin_tile() {
     std::fill_n(m_.sum.begin(), 4 * tile_.pixels(), 0.0);
-    for (auto& v : m_.sum_aov) std::fill_n(v.begin(), tile_.pixels(), 0.0);
+    if (shading_.has_mattes()) std::fill_n(m_.held.begin(), 3 * tile_.pixels(), 0.0);
+    for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane) {
+        const bool least = film_.aovs[plane].filter == AovFilter::Least;
+        std::fill_n(m_.sum_aov[plane].begin(), tile_.pixels(), least ? double(kNoDepth) : 0.0);
+    }
     m_.order.set_size(tile_.x1 - tile_.x0, tile_.y1 - tile_.y0);
     if (settings_.samples_per_pixel > 1) kernels_.scrambles(m_.order.pixels(tile_), settings_.seed);
 }
@@ -131,6 +138,25 @@ void TileJob::begin_rays(size_t begin, size_t end) {
     for (float* column : {r.share, r.weight}) set(column, 1.0f);
     for (uint32_t* column : {r.layer, r.medium, r.turns, r.spent}) set(column, 0u);
     for (size_t k = begin; k < end; ++k) r.slot[k] = uint32_t(k);
+}
+
+// Leaves of each ray what is not before the plane; one that is there as a whole meets nothing.
+void TileJob::cut_rays(const dvec4& plane) {
+    RayBatch& r = m_.rays;
+    for (size_t k = 0; k < r.count; ++k) {
+        double before = plane.w, per_t = 0;
+        for (int c = 0; c < 3; ++c) {
+            before += plane[c] * double(r.org[c][k]);
+            per_t += plane[c] * double(r.dir[c][k]);
+        }
+        const double t = -before / per_t;
+        if (per_t > 0 && t >= 0)
+            r.tfar[k] = std::min(r.tfar[k], float(t));
+        else if (per_t < 0)
+            r.tnear[k] = std::max(r.tnear[k], float(t));
+        else if (before > 0)
+            r.tnear[k] = std::numeric_limits<float>::infinity();
+    }
 }
 
 void TileJob::make_rays(int first_sample, int end_sample) {
@@ -160,6 +186,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
     for (int sample = first_sample; sample < end_sample; ++sample)
         m_.samples.push_back(sample_bits(uint32_t(sample)));
     kernels_.rays(view_, pixels, m_.samples.data(), m_.samples.size(), filter, out);
+    for (size_t p = 0; p < camera_.plane_count; ++p) cut_rays(camera_.planes[p]);
     for (int c = 0; c < 3; ++c) {
         std::fill_n(m_.color[c].begin(), r.count, 0.0f);
         std::fill_n(m_.through[c].begin(), r.count, 1.0f);
@@ -169,8 +196,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
 // Each round traces the rays that still see through, and shades all their hits at once.
 void TileJob::follow_layers() {
     for (int layer = 0; m_.rays.count > 0; ++layer) {
-        const HitBatch& hits =
-            trace(accel_, m_.rays, kMaskAll | kMaskCamera, 0, m_.hits, m_.counters.trace);
+        const HitBatch& hits = trace(accel_, m_.rays, kMaskEye, 0, m_.hits, m_.counters.trace);
         if (shading_.miss_distance() > 0) shade_misses(hits);
         if (hits.count == 0) return;
         if (layer == settings_.max_layers) {  // what is left is not seen
@@ -178,6 +204,7 @@ void TileJob::follow_layers() {
             return;
         }
         shade(hits);
+        if (shading_.has_mattes()) hold_out(hits);
         keep_aovs(hits);
         composite(hits);
     }
@@ -263,14 +290,39 @@ bool TileJob::shows_first(const HitBatch& hits, size_t k) const {
 
 void TileJob::keep_aovs(const HitBatch& hits) {
     for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane) {
-        const bool first_only = film_.aovs[plane].filter == AovFilter::FirstSample;
+        const AovFilter filter = film_.aovs[plane].filter;
+        const bool first_only = filter == AovFilter::FirstSample;
         const double weight = first_only ? 1.0 : 1.0 / settings_.samples_per_pixel;
         for (size_t k = 0; k < hits.count; ++k) {
             if ((first_only && hits.sample[k] != 0) || !shows_first(hits, k)) continue;
-            m_.sum_aov[plane][pixel_of(m_.rays.slot[hits.ray[k]])] +=
-                weight * double(m_.shaded_aov[plane][k]);
+            double& kept = m_.sum_aov[plane][pixel_of(m_.rays.slot[hits.ray[k]])];
+            const double value = double(m_.shaded_aov[plane][k]);
+            kept = filter == AovFilter::Least ? std::min(kept, value) : kept + weight * value;
         }
     }
+}
+
+// What mattes hide is neither their colour nor coverage. Distances stay theirs.
+void TileJob::hold_out(const HitBatch& hits) {
+    for (size_t k = 0; k < hits.count; ++k) {
+        if (!shading_.is_matte(hits, k)) continue;
+        const size_t slot = m_.rays.slot[hits.ray[k]];
+        for (size_t c = 0; c < 3; ++c) {
+            m_.shaded[c][k] = 0;
+            m_.held[3 * pixel_of(slot) + c] +=
+                double(m_.through[c][slot] * std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f));
+        }
+        for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane)
+            if (film_.aovs[plane].filter != AovFilter::Least) m_.shaded_aov[plane][k] = 0;
+    }
+}
+
+// What holes of the pixel show instead: the background, or no coverage.
+vec4 TileJob::behind_mattes(size_t pixel) const {
+    const double* held = &m_.held[3 * pixel];
+    if (!settings_.background) return vec4(0, 0, 0, -(held[0] + held[1] + held[2]) / 3);
+    const vec3& color = *settings_.background;
+    return vec4(held[0] * double(color.x), held[1] * double(color.y), held[2] * double(color.z), 0);
 }
 
 void TileJob::lay_behind(const HitBatch& hits, size_t k) {
@@ -352,6 +404,7 @@ void TileJob::write_tile() const {
         const int y = tile_.y0 - film_.top + int(m_.order.y[pixel]);
         vec4& out = film_.at(x, y);
         for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[4 * pixel + size_t(c)]);
+        if (shading_.has_mattes()) out += float(weight) * behind_mattes(pixel);
         const size_t at = size_t(y) * size_t(film_.width) + size_t(x);
         for (size_t k = 0; k < m_.sum_aov.size(); ++k)
             film_.aovs[k].values[at] = float(m_.sum_aov[k][pixel]);

@@ -45,7 +45,8 @@ struct IntegratorScratch::Thread {
     std::vector<SampleBits> samples;  // of the chunk, which all pixels share
     size_t begun = 0;   // rays from the first that hold what all rays of the camera share ...
     size_t passed = 0;  // but for so many, which went on behind hits
-    ZeroedVector<double> sum;  // colour and coverage, by pixel of the tile, in its order
+    ZeroedVector<double> sum;   // colour and coverage, by pixel of the tile, in its order
+    ZeroedVector<double> held;  // of mattes: how much they hide, three a pixel
     std::vector<ZeroedVector<double>> sum_aov;
 
     void reserve(size_t chunk, size_t tile_pixels, size_t aovs);
@@ -76,6 +77,7 @@ class TileJob {
     void begin_tile();
     void make_rays(int first_sample, int end_sample);
     void begin_rays(size_t begin, size_t end);
+    void cut_rays(const dvec4& plane);
     void follow_layers();
     enum class Ends : uint8_t { Surfaces, Nothing };
     void shade(const HitBatch& hits, Ends ends = Ends::Surfaces);
@@ -85,6 +87,8 @@ class TileJob {
     bool shows_first(const HitBatch& hits, size_t k) const;
     void keep_aovs(const HitBatch& hits);
     void composite(const HitBatch& hits);
+    void hold_out(const HitBatch& hits);
+    vec4 behind_mattes(size_t pixel) const;
     void lay_behind(const HitBatch& hits, size_t k);
     uint32_t lay_sixteen(const HitBatch& hits, size_t k);
     float largest_through(size_t slot) const;

@@ -10,7 +10,7 @@
 namespace kinora::raytrace {
 
 inline uint32_t mask_of(const Geometry& g) {
-    return g.opaque ? kMaskOpaque : kMaskNotOpaque;
+    return mask_of_viewer(g.seen_by) & (g.opaque ? kMaskOpaque : kMaskNotOpaque);
 }
 
 inline bool same_buffers(const Geometry& a, const Geometry& b) {

@@ -263,14 +263,36 @@ class Stack {
             output(Global::P, left ? left_P_ : have_P_ ? P_ : globals_.input(Global::P));
     }
 
-    // Output parameters wanted by the film or by lightsource(): the topmost layer's.
+    using MakeKey = KernelKey(std::string_view, int, ComponentForm, int);
+
+    // What a surface has under a name of the language, as the topmost layer left it.
+    Lowered left_global(Global id) {
+        if (id == Global::Ci) return lowered(BaseType::Color, Ci_);
+        if (id == Global::Oi) return lowered(BaseType::Color, Oi_);
+        return id == Global::N ? left_N_ : globals_.read(id);
+    }
+
+    // "z" is the distance from the camera's plane.
+    void write_global(MakeKey& key, const std::string& name) {
+        const std::optional<BaseType> type = global_output(name);
+        if (context_.kind() != ShaderKind::Surface || !type) return;
+        const bool is_depth = name == kDepthOutput;
+        const Lowered value = left_global(is_depth ? Global::P : find_global(name)->id);
+        for (int c = 0; c < component_count(*type); ++c)
+            output(key(name, -1, form_of(*type), c), jit::Type::F,
+                   value.c[size_t(is_depth ? 2 : c)]);
+    }
+
+    // Outputs wanted by the film or by lightsource(): the topmost layer's parameters, else globals.
     void write_named_outputs() {
-        using MakeKey = KernelKey(std::string_view, int, ComponentForm, int);
         auto write = [&](MakeKey& key, const std::vector<std::string>& names) {
             for (const std::string& name : names) {
                 auto found = std::find_if(messages_.list().rbegin(), messages_.list().rend(),
                                           [&](auto& message) { return message.name == name; });
-                if (found == messages_.list().rend()) continue;
+                if (found == messages_.list().rend()) {
+                    write_global(key, name);
+                    continue;
+                }
                 std::vector<Lowered> values = messages_.values(*found);
                 for (size_t k = 0; k < values.size(); ++k)
                     for (int c = 0; c < values[k].size(); ++c)

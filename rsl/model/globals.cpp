@@ -1,6 +1,8 @@
 // rsl/model/globals.cpp: the rows of globals.def.
 #include "rsl/model/globals.h"
 
+#include <algorithm>
+
 namespace kinora::rsl {
 
 namespace {
@@ -35,6 +37,15 @@ const GlobalInfo* find_global(std::string_view name) {
 
 const GlobalInfo& global_info(Global id) {
     return kGlobals[size_t(id)];
+}
+
+std::optional<BaseType> global_output(std::string_view name) {
+    constexpr Global kOfLights[] = {Global::L, Global::Cl, Global::Ol, Global::Ps, Global::Ns};
+    if (name == kDepthOutput) return BaseType::Float;
+    const GlobalInfo* found = find_global(name);
+    const bool of_surfaces = found && found->readers & kinds("S") && found->rate == Rate::Varying;
+    if (!of_surfaces || std::ranges::count(kOfLights, found->id)) return {};
+    return found->type.base;
 }
 
 }  // namespace kinora::rsl

@@ -36,4 +36,10 @@ std::span<const GlobalInfo> globals();
 const GlobalInfo* find_global(std::string_view name);  // null: no such global
 const GlobalInfo& global_info(Global id);
 
+// How far a surface's point is from the camera's plane, as an output that every surface has.
+inline constexpr std::string_view kDepthOutput = "z";
+// The type of an output that every surface has without declaring it: z, or a varying global but for
+// those of its lights.
+std::optional<BaseType> global_output(std::string_view name);
+
 }  // namespace kinora::rsl

@@ -45,6 +45,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.decode_textures = encoding_of(request) == ColorEncoding::Srgb;
     o.aovs = request.aovs;
     o.trees = request.trees;
+    o.displays = request.displays;
     o.print = request.print;
     if (request.dice_limit) o.dice_limit = request.dice_limit;
     o.width = scaled(request, request.width ? request.width : 640);
@@ -247,8 +248,8 @@ FrameSettings frame_settings(const SceneRequest& request, const Scene& scene, Po
         stops = auto_exposure(scene, scene.options, pose, settings, diagnostics);
         diagnostics.report(Code::EXPOSURE_AUTO, Location{}, stops);
     }
-    settings.gain = std::exp2(stops) * (own ? own->gain : 1);
-    settings.gamma = own ? own->gamma : 1;
+    settings.gain = std::exp2(stops) * (own ? own->exposure.gain : 1);
+    settings.gamma = own ? own->exposure.gamma : 1;
     return settings;
 }
 

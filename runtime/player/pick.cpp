@@ -98,7 +98,7 @@ PickedPixel pick_pixel(const Inspected& inspected, int x, int y) {
     rays.dir_x[0] = ray.dir.x, rays.dir_y[0] = ray.dir.y, rays.dir_z[0] = ray.dir.z;
     rays.tnear[0] = ray.tnear;
     rays.tfar[0] = ray.tfar;
-    rays.mask[0] = raytrace::kMaskAll | raytrace::kMaskCamera;
+    rays.mask[0] = raytrace::kMaskEye;
     if ((pose.accel.intersect16(rays, hits, counters) & 1) == 0) return picked;
     picked.hit = true;
     Hit hit{hits.instance[0], hits.primitive[0], hits.u[0], hits.v[0]};

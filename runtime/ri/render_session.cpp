@@ -21,6 +21,7 @@ SceneRequest program_request() {
     request.quality = *find_quality(kDefaultQuality);
     request.color = ColorEncoding::Linear;
     request.trees = std::make_shared<raytrace::KeptTrees>();
+    request.displays = true;
     return request;
 }
 

@@ -55,6 +55,10 @@ raytrace::CameraStatus set_view(const Scene& scene, Pose& pose, int width, int h
     bool both = camera.znear.present() && camera.zfar.present();
     bool repaired = status == raytrace::CameraStatus::ClipRangeRepaired;
     pose.view.clip = camera.clips && !(both && repaired);
+    static_assert(kMostClippingPlanes <= raytrace::kMostCameraPlanes);
+    for (const dvec4& plane : camera.planes)
+        pose.view.planes[pose.view.plane_count++] =
+            dvec4(dvec3(plane), plane.w + glm::dot(dvec3(plane), scene.origin));
     return status;
 }
 

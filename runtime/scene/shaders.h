@@ -18,7 +18,8 @@ struct OutputPlane {
     std::string parameter;  // "glow"
     uint32_t component = 0;
     int element = -1;     // of an array; -1: it is none
-    bool in_file = true;  // false: only an imager reads it
+    bool in_file = true;  // false: only an imager or a display reads it
+    bool depth = false;   // the nearest sample's counts, not the mean
 };
 
 struct SceneShaders {

@@ -46,7 +46,8 @@ void prepare_planes(const Scene& scene, raytrace::Film& film) {
     if (same) return;
     film.aovs.clear();
     for (const OutputPlane& plane : scene.outputs) {
-        film.add_aov(plane.name);
+        using raytrace::AovFilter;
+        film.add_aov(plane.name, plane.depth ? AovFilter::Least : AovFilter::Mean);
         film.aovs.back().in_file = plane.in_file;
     }
 }

@@ -69,6 +69,7 @@ struct Shading::Objects {
     bool all_ran = false;
     bool reads_footprints = false;
     bool fills_space = false;  // an atmosphere or an exterior
+    bool has_mattes = false;
 
     ShadingCounters counted() const {  // by all threads, in this frame
         ShadingCounters total;
@@ -102,6 +103,7 @@ Shading::Shading(const Scene& scene, const Pose& pose) {
         scene.lights, [&](const LightSource& light) { return shoots_rays(*looks[light.look]); });
     objects_->looks_run = looks_that_run(scene, objects_->lights);
     objects_->reads_footprints = kinora::reads_footprints(scene);
+    objects_->has_mattes = std::ranges::any_of(scene.surfaces, &Surface::matte);
     objects_->fills_space =
         scene.atmosphere != kNone ||
         std::ranges::any_of(looks, [](const auto& look) { return look->exterior; });
@@ -215,6 +217,14 @@ void Shading::shade_misses(const raytrace::HitBatch& ends, int thread,
 
 uint32_t Shading::medium_behind(const raytrace::HitBatch& hits, size_t k) const {
     return kinora::medium_behind(objects_->frame, hits, k);
+}
+
+bool Shading::has_mattes() const {
+    return objects_->has_mattes;
+}
+
+bool Shading::is_matte(const raytrace::HitBatch& hits, size_t k) const {
+    return objects_->frame.shapes.surfaces[hits.geometry[k]].matte;
 }
 
 size_t Shading::run_imager(raytrace::Film& film, raytrace::NanPolicy nan) {

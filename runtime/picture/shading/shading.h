@@ -42,6 +42,8 @@ class Shading : public raytrace::SurfaceShading {
     void shade_misses(const raytrace::HitBatch& ends, int thread,
                       raytrace::ShadeResult& result) override;
     uint32_t medium_behind(const raytrace::HitBatch& hits, size_t k) const override;
+    bool has_mattes() const override;
+    bool is_matte(const raytrace::HitBatch& hits, size_t k) const override;
 
     // Runs the scene's imager over the finished picture, after integrate(). The number of its
     // pixels that were not finite; they become what `nan` says.

@@ -44,7 +44,7 @@ void trace_packet(const Pose& pose, const Centers& centers, std::span<const uint
         rays.dir_x[k] = ray.dir.x, rays.dir_y[k] = ray.dir.y, rays.dir_z[k] = ray.dir.z;
         rays.tnear[k] = ray.tnear;
         rays.tfar[k] = ray.tfar;
-        rays.mask[k] = raytrace::kMaskAll | raytrace::kMaskCamera;
+        rays.mask[k] = raytrace::kMaskEye;
         rays.time[k] = 0;
     }
     uint32_t hit = pose.accel.intersect16(rays, hits, counters);

@@ -19,8 +19,7 @@ constexpr size_t kMostPackets = 4096, kMostRays = 10'000;
 StoryRay::Kind kind_of(uint32_t mask, bool any) {
     if (mask & raytrace::kMaskCamera) return StoryRay::Kind::Eye;
     // What an opaque surface does not block is looked for among the others.
-    return any || mask == raytrace::kMaskNotOpaque ? StoryRay::Kind::Shadow
-                                                   : StoryRay::Kind::Traced;
+    return any || !(mask & raytrace::kMaskOpaque) ? StoryRay::Kind::Shadow : StoryRay::Kind::Traced;
 }
 
 bool has_place(dvec3 v) {

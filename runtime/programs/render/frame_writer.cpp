@@ -10,10 +10,18 @@ namespace kinora {
 
 namespace {
 
+// The picture last: where it is there, all is. An error is about the frame's `file` then.
 WrittenFrame write(WrittenFrame frame) {
     Stopwatch watch;
-    frame.error =
-        write_image(frame.file, frame.film, frame.color, frame.texts, &frame.number, frame.depth);
+    for (const DisplayFile& beside : frame.displays) {
+        if (!frame.error.empty()) break;
+        frame.error = write_display(beside, frame.exposed, frame.film, frame.color, frame.texts,
+                                    &frame.number);
+        if (!frame.error.empty()) frame.file = beside.path;
+    }
+    if (frame.error.empty())
+        frame.error = write_image(frame.file, frame.film, frame.color, frame.texts, &frame.number,
+                                  frame.depth);
     frame.ms = watch.ms();
     return frame;
 }

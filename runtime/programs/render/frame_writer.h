@@ -4,7 +4,9 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "runtime/scene/images/display_files.h"
 #include "runtime/scene/images/image_io.h"
 
 namespace kinora {
@@ -17,6 +19,8 @@ struct WrittenFrame {
     PictureDepth depth = PictureDepth::Half;
     ImageTexts texts;
     raytrace::Film film;
+    std::vector<DisplayFile> displays = {};  // beside it
+    Exposure exposed = {};                   // of the film
 
     std::string error = {};  // "": it is written
     int number = 0;          // the system's, of the error

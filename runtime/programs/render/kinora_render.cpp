@@ -137,6 +137,8 @@ class Render {
     ptrdiff_t unwritable() const;
     int refuse_unwritable(const std::string& file);
     int ready_folders();
+    std::vector<DisplayFile> displays_of(const std::string& picture) const;
+    Exposure exposure_of_file() const;
     bool keep_existing(const std::string& file, const std::string& print);
     void end_write();
     int end_bands(FrameRecord& record, bool whole);
@@ -261,11 +263,31 @@ int Render::ready_folders() {
                                           : refuse_unwritable(options_.contact_sheet);
 }
 
+// What the scene's file shows besides its picture.
+std::vector<DisplayFile> Render::displays_of(const std::string& picture) const {
+    const std::optional<FilePicture>& own = scene_.scene().description->file_picture;
+    if (picture.empty() || !own) return {};
+    std::vector<DisplayFile> files = displays_beside(picture, own->displays);
+    auto is_there = [&](const std::string& output) {
+        return std::ranges::count(scene_.scene().outputs, output, &OutputPlane::parameter) > 0;
+    };
+    std::erase_if(files,
+                  [&](const DisplayFile& file) { return !has_outputs(file.display, is_there); });
+    return files;
+}
+
+Exposure Render::exposure_of_file() const {
+    const std::optional<FilePicture>& own = scene_.scene().description->file_picture;
+    return own ? own->exposure : Exposure();
+}
+
 // Whether the file is that picture already; the contact sheet shows it, too. A picture that lacked
 // an asset when it was made has no checksum.
 bool Render::keep_existing(const std::string& file, const std::string& print) {
     if (read_image_text(file, "kinora/fingerprint") != print) return false;
     if (!has_intact_pixels(file)) return false;
+    for (const DisplayFile& beside : displays_of(file))
+        if (read_image_text(beside.path, "kinora/fingerprint") != print) return false;
     if (options_.contact_sheet.empty()) return true;
     std::optional<Image8> image = read_image(file, encoding_of(options_));
     if (image) sheet_.add(*image);
@@ -288,8 +310,11 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
         progress_.frame_skipped(frame, index, record.file);
         return kExitOk;
     }
+    const std::vector<DisplayFile> displays = displays_of(record.file);
     if (wants_file)
         if (int code = refuse_unwritable(record.file)) return code;
+    for (const DisplayFile& beside : displays)
+        if (int code = refuse_unwritable(beside.path)) return code;
     scene_.settings().integrator.seed = frame_seed(options_, frame);
     auto on_tile = [&](int done, int total) {
         progress_.tile(frame, index, done, total);
@@ -305,7 +330,9 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
                           .texts = {{"Software", "kinora " KINORA_VERSION},
                                     {"kinora/fingerprint", print},
                                     {kChecksumText, ""}},
-                          .film = {}};
+                          .film = {},
+                          .displays = displays,
+                          .exposed = exposure_of_file()};
     const bool in_bands = scene_.settings().band_rows > 0;
     if (in_bands) bands_.start(to_write, scene_.settings().height);
     bool whole =
@@ -419,8 +446,9 @@ int Render::frames() {
         if (session->width > 0) settings.width = session->width;
         if (session->height > 0) settings.height = session->height;
     }
-    // A contact sheet and settings for a target take whole pictures.
-    if (options_.contact_sheet.empty() && !options_.frame_target.any()) {
+    // A contact sheet, displays and settings for a target take whole pictures.
+    if (options_.contact_sheet.empty() && !options_.frame_target.any() &&
+        displays_of(options_.output).empty()) {
         settings.band_rows = band_rows(settings.width, settings.height, settings.integrator.tile);
         settings.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };
     }

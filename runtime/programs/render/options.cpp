@@ -257,6 +257,7 @@ void interpret_output(const Given& given, RenderOptions& o) {
         throw CLI::RequiredError("-o FILE (or --list, --explain, --dump)");
     o.discard = o.output == "null";
     if (o.discard) o.output.clear();
+    o.displays = !o.output.empty();
     if (!o.output.empty() && !is_image_path(o.output))
         throw CLI::ValidationError("-o", "takes a name that ends in .png or .exr");
     if (!o.contact_sheet.empty() && !has_extension(o.contact_sheet, {".png"}))

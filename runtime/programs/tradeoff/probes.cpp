@@ -42,7 +42,7 @@ void put_ray(const raytrace::Camera& camera, size_t pixel, raytrace::RayPacket16
     rays.dir_z[lane] = ray.dir.z;
     rays.tnear[lane] = ray.tnear;
     rays.tfar[lane] = ray.tfar;
-    rays.mask[lane] = raytrace::kMaskAll | raytrace::kMaskCamera;
+    rays.mask[lane] = raytrace::kMaskEye;
     rays.time[lane] = 0;
 }
 

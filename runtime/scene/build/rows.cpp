@@ -20,6 +20,7 @@ void set_rows(SceneShapes& scene, const SceneShaders& shaders) {
         row.id = uint32_t(s);
         row.body = surface.shape;
         row.kind = shape.kind;
+        row.seen_by = surface.seen_by;
         row.opaque = instance.opaque();
         const MeshGroup& group = mesh.groups[surface.group];
         row.hide_backfaces =

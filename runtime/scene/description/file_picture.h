@@ -3,22 +3,45 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "runtime/base/diagnostic.h"
+
 namespace kinora {
 
-// How a display's numbers become whole ones: round(one * v + dither), within [low, high].
+// How a display's numbers become whole ones: 0 becomes `zero`, 1 becomes `one`, and what is outside
+// of [low, high] its nearer end.
 struct Quantization {
-    double one = 255, low = 0, high = 255, dither = 0.5;  // one = 0: they stay floats
+    double one = 255, low = 0, high = 255;
+    double zero = 0;
+
+    // Else numbers stay as they are.
+    bool is_whole() const { return one != zero; }
+};
+
+// (gain * colour) ^ (1 / gamma).
+struct Exposure {
+    double gain = 1, gamma = 1;
 };
 
 // A picture file that the scene writes.
 struct FileDisplay {
-    std::string name, type, mode;  // "out.tif", "file", "rgba"
-    bool added = false;            // besides those before it
-    Quantization quantization;
+    std::string name, type, mode;              // "out.tif", "file", "rgba"
+    std::optional<Quantization> quantization;  // nothing: 0 to 1 become 0 to 255
+    std::optional<Exposure> exposure;          // instead of the picture's
+    Location where;
 };
+
+// What a display shows, by its mode: "rgba", "rgbaz", "az", else an output of surfaces.
+struct DisplayContent {
+    bool color = false, alpha = false, depth = false;
+    std::string variable;  // "N"; "" where one of the three is set
+
+    bool is_picture() const { return color || alpha; }
+};
+DisplayContent content_of(const FileDisplay& display);
 
 struct FilePicture {
     int number = 0;                 // of the frame, as the file counts
@@ -29,7 +52,7 @@ struct FilePicture {
     int samples = 0;     // of a pixel; 0: the file does not say
     std::string filter;  // "gaussian"; "": the file does not say
     double filter_width = 2;
-    double gain = 1, gamma = 1;  // (gain * colour) ^ (1 / gamma)
+    Exposure exposure;
     std::vector<FileDisplay> displays;
 };
 

@@ -61,6 +61,16 @@ struct MaterialUse {
     std::vector<std::pair<std::string, ValueSlot>> params;  // <bind semantic target>
 };
 
+// Whose rays meet a mesh.
+struct Visibility {
+    bool camera = true, reflections = true, diffuse = true, shadows = true;
+    // The camera sees a hole in the picture: what is behind is hidden, and coverage is 0.
+    bool matte = false;
+
+    bool any() const { return camera || reflections || diffuse || shadows; }
+    bool operator==(const Visibility&) const = default;
+};
+
 struct MeshUse {
     uint32_t mesh = kNone;
     uint32_t morph = kNone;
@@ -69,6 +79,7 @@ struct MeshUse {
     std::vector<MaterialUse> materials;
     // The light definitions that light it; nothing: all do.
     std::optional<std::vector<uint32_t>> lights;
+    Visibility visibility;
     dmat4 conversion{1.0};  // from the mesh's document into the scene's units and axes
 };
 
@@ -218,6 +229,8 @@ struct MovingColor {
     uint32_t display, linear;
 };
 
+inline constexpr size_t kMostClippingPlanes = 16;
+
 struct CameraDefinition {
     std::string id, name;
     bool orthographic = false;
@@ -226,6 +239,8 @@ struct CameraDefinition {
     // Instead of x, y and aspect: what the picture spans, left, right, bottom and top, at z = 1 or,
     // orthographic, anywhere. Left above right, or bottom above top, is a mirrored picture.
     std::optional<std::array<double, 4>> window;
+    // What lies before one of these planes is not seen: n . p + w > 0, in the scene's space.
+    std::vector<dvec4> planes;
     PictureShaders picture;
     Location where;
 };

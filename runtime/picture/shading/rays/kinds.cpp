@@ -7,19 +7,23 @@ namespace kinora {
 
 namespace {
 
-using raytrace::kMaskAll;
+constexpr uint32_t kReflected = raytrace::mask_of_viewer(raytrace::kSeenByReflections);
+constexpr uint32_t kDiffuse = raytrace::mask_of_viewer(raytrace::kSeenByDiffuse);
+constexpr uint32_t kShadowing = raytrace::mask_of_viewer(raytrace::kSeenByShadows);
 
 constexpr RayKindRow kRayKinds[] = {
-    {RayKind::Trace, "trace", RayType::Specular, kMaskAll, RayBudget::Share, RayFinds::Color, true},
-    {RayKind::Transmission, "transmission", RayType::Transmission, kMaskAll, RayBudget::Samples,
+    {RayKind::Trace, "trace", RayType::Specular, kReflected, RayBudget::Share, RayFinds::Color,
+     true},
+    {RayKind::Transmission, "transmission", RayType::Transmission, kShadowing, RayBudget::Samples,
      RayFinds::Passing, false},
-    {RayKind::Occlusion, "occlusion", RayType::Transmission, kMaskAll, RayBudget::Samples,
+    {RayKind::Occlusion, "occlusion", RayType::Transmission, kDiffuse, RayBudget::Samples,
      RayFinds::Passing, false},
-    {RayKind::Indirect, "indirectdiffuse", RayType::Diffuse, kMaskAll, RayBudget::Fit,
+    {RayKind::Indirect, "indirectdiffuse", RayType::Diffuse, kDiffuse, RayBudget::Fit,
      RayFinds::Color, true},
-    {RayKind::Gather, "gather", RayType::Specular, kMaskAll, RayBudget::Share, RayFinds::Hit,
+    {RayKind::Gather, "gather", RayType::Specular, kReflected, RayBudget::Share, RayFinds::Hit,
      false},
-    {RayKind::Lamp, "", RayType::Transmission, kMaskAll, RayBudget::Free, RayFinds::Passing, false},
+    {RayKind::Lamp, "", RayType::Transmission, kShadowing, RayBudget::Free, RayFinds::Passing,
+     false},
 };
 
 }  // namespace

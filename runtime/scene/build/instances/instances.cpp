@@ -40,7 +40,7 @@ std::vector<std::string> light_messages(const SceneShaders& scene) {
 bool compile_instances(SceneShaders& scene, const OutputPlanes& outputs,
                        InstanceCompiler& compiler) {
     ShaderInstanceOptions of_surfaces;
-    of_surfaces.aovs = outputs.parameters();
+    of_surfaces.aovs = outputs.outputs();
     of_surfaces.gathered = gathered_outputs(scene);
     bool ok = true;
     for (auto& instance : scene.shader_instances) {
@@ -51,6 +51,12 @@ bool compile_instances(SceneShaders& scene, const OutputPlanes& outputs,
         ok &= compiled;
     }
     return ok;
+}
+
+std::span<const FileDisplay> displays_of(const Scene& scene) {
+    const std::optional<FilePicture>& picture = scene.description->file_picture;
+    if (!scene.options.displays || !picture) return {};
+    return picture->displays;
 }
 
 bool add_lights(Scene& scene, InstanceCompiler& compiler) {
@@ -72,8 +78,9 @@ bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& 
     SurfaceInstances surfaces(scene, shapes, shaders, vertices, volumes, diagnostics);
     for (size_t s = 0; s < shapes.surfaces.size(); ++s) surfaces.add(shapes.surfaces[s], uses[s]);
     add_atmosphere(description, camera, shaders);
-    OutputPlanes outputs(shaders, scene.options.aovs, imagers_of(description, camera), diagnostics);
-    add_imager(description, camera, shaders, outputs.parameters());
+    OutputPlanes outputs(shaders, scene.options.aovs, displays_of(scene),
+                         imagers_of(description, camera), diagnostics);
+    add_imager(description, camera, shaders, outputs.outputs());
     bool compiled = compile_instances(shaders, outputs, compiler);
     bool lit = add_lights(scene, compiler);
     for (size_t l = 0; l < shaders.shader_instances.size(); ++l)

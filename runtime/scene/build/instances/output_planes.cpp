@@ -1,5 +1,4 @@
-// runtime/scene/build/instances/output_planes.cpp: the planes that surfaces' output parameters
-// fill.
+// runtime/scene/build/instances/output_planes.cpp: the planes that surfaces' outputs fill.
 #include "runtime/scene/build/instances/output_planes.h"
 
 #include <fmt/format.h>
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "rsl/model/globals.h"
 #include "rsl/model/kernel_keys.h"
 #include "runtime/scene/description/findings.h"
 
@@ -49,31 +49,48 @@ std::optional<rsl::Type> find_output(const SceneShaders& scene, std::string_view
     return {};
 }
 
+std::optional<rsl::Type> find_global_output(std::string_view name) {
+    std::optional<rsl::BaseType> type = rsl::global_output(name);
+    return type ? std::optional(rsl::Type{*type, -1}) : std::nullopt;
+}
+
 }  // namespace
 
 OutputPlanes::OutputPlanes(SceneShaders& scene, std::span<const std::string> wanted,
+                           std::span<const FileDisplay> displays,
                            std::span<const ShaderUse> imagers, Diagnostics& diagnostics)
     : scene_(scene) {
     for (const std::string& name : wanted)
         if (!add(name, true)) diagnostics.report(Code::AOV_UNKNOWN, Location{}, name);
+    for (const FileDisplay& display : displays) add_display(display, diagnostics);
     for (const ShaderUse& use : imagers)
         for (const rsl::ShaderParameter& p : use.shader->parameters)
             if (!p.type.is_array() && p.type.base != rsl::BaseType::String)
-                add(std::string(p.name), false);
+                add(std::string(p.name), false, false);
+}
+
+void OutputPlanes::add_display(const FileDisplay& display, Diagnostics& diagnostics) {
+    const DisplayContent content = content_of(display);
+    if (content.depth) add(std::string(rsl::kDepthOutput), false);
+    if (!content.variable.empty() && !add(content.variable, false))
+        diagnostics.report(Code::RI_OUTPUT_UNKNOWN, display.where, display.name, content.variable);
 }
 
 // False where no surface has that output.
-bool OutputPlanes::add(const std::string& name, bool in_file) {
-    if (std::ranges::find(parameters_, name) != parameters_.end()) return true;
+bool OutputPlanes::add(const std::string& name, bool in_file, bool global) {
+    if (std::ranges::find(outputs_, name) != outputs_.end()) return true;
     std::optional<rsl::Type> found = find_output(scene_, name);
+    const bool declared = found.has_value();
+    if (!declared && global) found = find_global_output(name);
     if (!found) return false;
-    parameters_.push_back(name);
+    outputs_.push_back(name);
     rsl::Type type = *found;
     for (int element = 0; element < std::max(type.array_length, 1); ++element) {
         std::string value = type.is_array() ? fmt::format("{}.{}", name, element) : name;
         for (int c = 0; c < rsl::component_count(type.base); ++c)
             scene_.outputs.push_back({plane_name(value, type.base, c), name, uint32_t(c),
-                                      type.is_array() ? element : -1, in_file});
+                                      type.is_array() ? element : -1, in_file,
+                                      !declared && name == rsl::kDepthOutput});
     }
     return true;
 }

@@ -1,10 +1,11 @@
-// runtime/scene/build/instances/output_planes.h: the planes that surfaces' output parameters fill.
+// runtime/scene/build/instances/output_planes.h: the planes that surfaces' outputs fill.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "runtime/scene/description/file_picture.h"
 #include "runtime/scene/shaders.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
@@ -13,19 +14,21 @@ namespace kinora {
 // Writes Scene::outputs.
 class OutputPlanes {
   public:
-    // Planes that are wanted, then those that the imagers have parameters of. The scene has the
-    // instances of its surfaces.
+    // Planes that are wanted, then those of displays and those that the imagers have parameters of.
+    // The scene has the instances of its surfaces.
     OutputPlanes(SceneShaders& scene, std::span<const std::string> wanted,
-                 std::span<const ShaderUse> imagers, Diagnostics& diagnostics);
+                 std::span<const FileDisplay> displays, std::span<const ShaderUse> imagers,
+                 Diagnostics& diagnostics);
 
-    // The output parameters behind the planes.
-    const std::vector<std::string>& parameters() const { return parameters_; }
+    // The outputs behind the planes: parameters, globals, or z.
+    const std::vector<std::string>& outputs() const { return outputs_; }
 
   private:
-    bool add(const std::string& parameter, bool in_file);
+    bool add(const std::string& output, bool in_file, bool global = true);
+    void add_display(const FileDisplay& display, Diagnostics& diagnostics);
 
     SceneShaders& scene_;
-    std::vector<std::string> parameters_;
+    std::vector<std::string> outputs_;
 };
 
 // Where a compiled instance of a surface has the planes among its outputs.

@@ -97,6 +97,13 @@ void add_shape(const SceneNodes& nodes, SceneShapes& scene, Pose& start, const M
     stands.mirrored = glm::determinant(dmat3(stands.world)) < 0;
 }
 
+uint32_t seen_by(const Visibility& visibility) {
+    return (visibility.camera ? raytrace::kSeenByCamera : 0) |
+           (visibility.reflections ? raytrace::kSeenByReflections : 0) |
+           (visibility.diffuse ? raytrace::kSeenByDiffuse : 0) |
+           (visibility.shadows ? raytrace::kSeenByShadows : 0);
+}
+
 // Of the last shape: one a group of its mesh.
 void add_surfaces(SceneShapes& scene, const MeshUse& use, std::vector<SurfaceUse>& surface_uses) {
     const Mesh& mesh = scene.meshes[use.mesh];
@@ -104,6 +111,8 @@ void add_surfaces(SceneShapes& scene, const MeshUse& use, std::vector<SurfaceUse
         Surface surface;
         surface.shape = uint32_t(scene.shapes.size() - 1);
         surface.group = g;
+        surface.seen_by = seen_by(use.visibility);
+        surface.matte = use.visibility.matte;
         scene.surfaces.push_back(surface);
         SurfaceUse& added = surface_uses.emplace_back();
         added.mesh = &use;

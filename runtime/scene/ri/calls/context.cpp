@@ -195,7 +195,9 @@ std::optional<Declaration> Context::resolve(Request request, std::string_view sh
                                             std::string_view token, std::string_view& name) {
     if (auto inline_one = parse_declaration(token, &name)) return inline_one;
     name = token;
-    std::string scoped = fmt::format("{}:{}:{}", row(request).name, shader, token);
+    const bool names_file = request == Request::Display;  // whatever its name is
+    std::string scoped =
+        fmt::format("{}:{}:{}", row(request).name, names_file ? "" : shader, token);
     for (std::string_view known : {std::string_view(scoped), token}) {
         if (const Declaration* found = declarations_.find(known)) return *found;
         if (const Declaration* found = Declarations::standard().find(known)) return *found;

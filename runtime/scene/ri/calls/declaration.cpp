@@ -122,8 +122,11 @@ constexpr StandardRow kStandard[] = {
      "Attribute:render:truedisplacement Attribute:render:visibility Attribute:light:nsamples "
      "Attribute:sides:doubleshaded Attribute:derivatives:centered",
      "uniform integer"},
-    {"Attribute:displacementbound:sphere Attribute:bound:displacement Attribute:trace:bias",
+    {"Attribute:displacementbound:sphere Attribute:bound:displacement Attribute:trace:bias "
+     "Display::dither",
      "uniform float"},
+    {"Display::quantize", "uniform float[4]"},
+    {"Display::exposure", "uniform float[2]"},
 };
 
 Declarations make_standard() {

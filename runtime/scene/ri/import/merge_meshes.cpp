@@ -172,7 +172,8 @@ class Merging {
             const MeshUse& open = left[i];
             if (!joins(open) || !fit_together(boxes[i], box) ||
                 open.materials[0].material != use.materials[0].material ||
-                open.lights != use.lights || mesh(open).name != mesh(use).name)
+                open.lights != use.lights || open.visibility != use.visibility ||
+                mesh(open).name != mesh(use).name)
                 continue;
             const PrimitiveGroup& group = mesh(open).groups.front();
             if (group.triangles.size() < kMostCorners &&

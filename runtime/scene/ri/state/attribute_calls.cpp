@@ -36,6 +36,36 @@ std::optional<dmat4> basis_matrix(const Values& values) {
     return m;
 }
 
+// What an integer or word of a renderer says of an object's visibility. Masks are of bits.
+struct VisibilityRow {
+    std::string_view group, name, hidden_by;  // the word that hides it
+    int mask;
+    bool Visibility::*flag;
+};
+constexpr int kAnyBit = ~0;
+constexpr VisibilityRow kVisibility[] = {
+    {"visibility", "camera", "", kAnyBit, &Visibility::camera},
+    {"visibility", "specular", "", kAnyBit, &Visibility::reflections},
+    {"visibility", "diffuse", "", kAnyBit, &Visibility::diffuse},
+    {"visibility", "indirect", "", kAnyBit, &Visibility::diffuse},
+    {"visibility", "trace", "", kAnyBit, &Visibility::reflections},
+    {"visibility", "trace", "", kAnyBit, &Visibility::diffuse},
+    {"visibility", "transmission", "transparent", kAnyBit, &Visibility::shadows},
+    {"render", "visibility", "", 1, &Visibility::camera},
+    {"render", "visibility", "", 2, &Visibility::reflections},
+    {"render", "visibility", "", 2, &Visibility::diffuse},
+    {"render", "visibility", "", 4, &Visibility::shadows},
+    {"render", "casts_shadows", "none", kAnyBit, &Visibility::shadows},
+};
+
+void set_visibility(std::string_view group, const Parameter& parameter, Visibility& visibility) {
+    const bool is_word = parameter.values.kind() == Values::Kind::Strings;
+    for (const VisibilityRow& row : kVisibility)
+        if (row.group == group && row.name == parameter.name)
+            visibility.*row.flag = is_word ? parameter.values.string() != row.hidden_by
+                                           : (parameter.values.integer() & row.mask) != 0;
+}
+
 }  // namespace
 
 bool AttributeCalls::call(const Call& call) {
@@ -77,8 +107,7 @@ void AttributeCalls::shading_rate(const Call& call) {
 }
 
 void AttributeCalls::matte(const Call& call) {
-    state_.attributes.matte = call.arguments[0].integer() != 0;
-    if (state_.attributes.matte) report_.not_done("Matte", "the object is drawn as others are");
+    state_.attributes.visibility.matte = call.arguments[0].integer() != 0;
 }
 
 void AttributeCalls::attribute(const Call& call) {
@@ -89,8 +118,7 @@ void AttributeCalls::attribute(const Call& call) {
             state_.attributes.light_shadows = p.values.string() == "on";
         if (group == "light" && p.name == "nsamples")
             state_.attributes.light_samples = p.values.integer();
-        if (group == "visibility" && p.name == "camera")
-            state_.attributes.visible_to_camera = p.values.integer() != 0;
+        set_visibility(group, p, state_.attributes.visibility);
         if (group == "trimcurve" && p.name == "sense")
             state_.attributes.trim_outside = p.values.string() == "outside";
     }

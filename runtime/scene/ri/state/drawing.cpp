@@ -28,7 +28,7 @@ constexpr uint32_t kFewCorners = 256;
 
 bool Interpreter::is_visible() const {
     const Attributes& now = state_.attributes;
-    return drawn_.draws(worlds_ - 1) && now.in_detail_range && now.visible_to_camera;
+    return drawn_.draws(worlds_ - 1) && now.in_detail_range && now.visibility.any();
 }
 
 // Says once that limits have made a surface coarse.

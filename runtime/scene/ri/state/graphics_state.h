@@ -14,6 +14,7 @@
 #include "runtime/base/math.h"
 #include "runtime/scene/description/curved_surface.h"
 #include "runtime/scene/description/file_picture.h"
+#include "runtime/scene/description/scene_description.h"
 
 namespace kinora::ri {
 
@@ -60,13 +61,14 @@ struct Options {
     std::array<double, 4> crop = {0, 1, 0, 1};           // xmin xmax ymin ymax
     Projection projection;
     double near = 1e-10, far = 1e38;
+    std::vector<dvec4> planes;  // n . p + w > 0 is cut off; camera space
     double shutter_open = 0, shutter_close = 0;
     std::optional<std::array<double, 2>> samples;
     std::string filter;
     double filter_width = 2;
-    double gain = 1, gamma = 1;
-    Quantization colors;
-    Quantization depths{0, 0, 0, 0};
+    Exposure exposure;
+    // By what they hold: "rgba", "z", or a variable that had its own.
+    std::map<std::string, Quantization, std::less<>> quantizations = {{"z", {0, 0, 0}}};
     std::vector<FileDisplay> displays;
     std::vector<Binding> imagers;
     double relative_detail = 1;
@@ -84,7 +86,7 @@ struct Attributes {
     Light area_light;           // what comes is geometry of it
     bool no_surface = false;    // Surface "null": what comes is black
     double shading_rate = 1;
-    bool matte = false;
+    Visibility visibility;
     bool two_sided = true;
     // The orientation differs from the handedness of the transformation, so that surfaces are
     // turned inside out. A mirror changes both, and this not.
@@ -97,7 +99,6 @@ struct Attributes {
     std::string name;  // Attribute "identifier" "name"
     bool light_shadows = false;
     int light_samples = 0;
-    bool visible_to_camera = true;
 };
 
 }  // namespace kinora::ri

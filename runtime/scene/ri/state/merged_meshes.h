@@ -16,6 +16,7 @@ class MergedMeshes {
     struct Look {
         uint32_t material;
         std::vector<uint32_t> lights;
+        uint32_t visibility;  // as bits
         std::string name;
         auto operator<=>(const Look&) const = default;
     };

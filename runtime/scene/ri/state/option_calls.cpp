@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "runtime/base/transform_matrix.h"
 #include "runtime/scene/description/findings.h"
@@ -106,8 +108,18 @@ void OptionCalls::clipping(const Call& call) {
     state_.options.far = far;
 }
 
-void OptionCalls::clipping_plane(const Call&) {
-    report_.not_done("ClippingPlane", "nothing is cut off");
+void OptionCalls::clipping_plane(const Call& call) {
+    const dmat4& m = state_.transform;
+    const dvec3 at(m * dvec4(real(call, 0), real(call, 1), real(call, 2), 1));
+    const dvec3 normal(real(call, 3), real(call, 4), real(call, 5));
+    const dvec3 n = glm::transpose(glm::inverse(dmat3(m))) * normal;
+    const double length = glm::length(n);
+    if (!all_finite(call) || !(length > 0) || !std::isfinite(length))
+        return report_.add(Code::RI_RANGE, "ClippingPlane", "it has no normal");
+    if (state_.options.planes.size() == kMostClippingPlanes)
+        return report_.add(Code::RI_RANGE, "ClippingPlane",
+                           fmt::format("at most {} planes cut", kMostClippingPlanes));
+    state_.options.planes.emplace_back(n / length, -glm::dot(n, at) / length);
 }
 
 void OptionCalls::depth_of_field(const Call& call) {
@@ -141,8 +153,7 @@ void OptionCalls::exposure(const Call& call) {
     double gain = real(call, 0), gamma = real(call, 1);
     if (!all_finite(call) || !(gain >= 0) || !(gamma > 0))
         return report_.add(Code::RI_RANGE, "Exposure", "gain and gamma must be above 0");
-    state_.options.gain = gain;
-    state_.options.gamma = gamma;
+    state_.options.exposure = {gain, gamma};
 }
 
 void OptionCalls::imager(const Call& call) {
@@ -152,20 +163,40 @@ void OptionCalls::imager(const Call& call) {
 }
 
 void OptionCalls::quantize(const Call& call) {
-    Quantization made{double(call.arguments[1].integer()), double(call.arguments[2].integer()),
-                      double(call.arguments[3].integer()), real(call, 4)};
-    (call.arguments[0].string() == "z" ? state_.options.depths : state_.options.colors) = made;
+    const double one = call.arguments[1].integer();
+    const double low = call.arguments[2].integer(), high = call.arguments[3].integer();
+    if (low > high) return report_.add(Code::RI_RANGE, "Quantize", "min is above max");
+    std::string type(call.arguments[0].string());
+    if (type == "rgb") type = "rgba";
+    state_.options.quantizations[type] = {one, low, high};
 }
 
 // A name with + goes beside the displays before it; one without replaces them.
 void OptionCalls::display(const Call& call) {
     FileDisplay made;
     std::string_view name = call.arguments[0].string();
-    made.added = name.starts_with('+');
-    made.name = std::string(made.added ? name.substr(1) : name);
+    const bool added = name.starts_with('+');
+    made.name = std::string(added ? name.substr(1) : name);
     made.type = std::string(call.arguments[1].string());
     made.mode = std::string(call.arguments[2].string());
-    if (!made.added) state_.options.displays.clear();
+    made.where = call.where;
+    if (const Parameter* own = call.find("quantize")) {
+        auto numbers = own->values.floats();
+        if (numbers.size() == 4 && numbers[2] <= numbers[3])
+            made.quantization = {double(numbers[1]), double(numbers[2]), double(numbers[3]),
+                                 double(numbers[0])};
+        else
+            report_.add(Code::RI_RANGE, "Display",
+                        "\"quantize\" is what 0 and 1 become, the least and the largest");
+    }
+    if (const Parameter* own = call.find("exposure")) {
+        auto numbers = own->values.floats();
+        if (numbers.size() == 2 && numbers[0] > 0 && numbers[1] > 0)
+            made.exposure = {double(numbers[0]), double(numbers[1])};
+        else
+            report_.add(Code::RI_RANGE, "Display", "\"exposure\" is a gain and a gamma above 0");
+    }
+    if (!added) state_.options.displays.clear();
     state_.options.displays.push_back(std::move(made));
 }
 

@@ -78,6 +78,16 @@ Pixels cropped(int size, double low, double high) {
     return made;
 }
 
+// What Quantize said of it. Variables that it did not name are as colours.
+std::optional<Quantization> quantization_of(const FileDisplay& display, const Options& options) {
+    const DisplayContent content = content_of(display);
+    const bool alone = content.depth && !content.is_picture();
+    for (const std::string& what : {alone ? "z" : content.variable, std::string("rgba")})
+        if (auto said = options.quantizations.find(what); said != options.quantizations.end())
+            return said->second;
+    return {};
+}
+
 FilePicture picture_of(const Options& options) {
     FilePicture made;
     if (options.samples)
@@ -85,11 +95,10 @@ FilePicture picture_of(const Options& options) {
     made.filter = options.filter;
     made.filter_width = options.filter_width;
     made.pixel_aspect = options.pixel_aspect;
-    made.gain = options.gain;
-    made.gamma = options.gamma;
+    made.exposure = options.exposure;
     made.displays = options.displays;
     for (FileDisplay& display : made.displays)
-        display.quantization = display.mode == "z" ? options.depths : options.colors;
+        if (!display.quantization) display.quantization = quantization_of(display, options);
     return made;
 }
 
@@ -111,6 +120,10 @@ class MaterialKey {
 };
 
 constexpr size_t kLastingTriangles = 1000;  // trees of less are not worth a place of their own
+
+uint32_t bits_of(const Visibility& v) {
+    return uint32_t(v.camera | v.reflections << 1 | v.diffuse << 2 | v.shadows << 3 | v.matte << 4);
+}
 
 // How much larger than the file's own the picture is.
 double enlargement(const FilePicture& own, const ImportOptions& import) {
@@ -173,6 +186,8 @@ void World::add_camera() {
            far = std::min(options_.far / size.z, 1e30);
     camera.znear = values(std::span(&near, 1));
     camera.zfar = values(std::span(&far, 1));
+    for (const dvec4& plane : options_.planes)
+        camera.planes.emplace_back(plane.x, plane.y, -plane.z, plane.w);
     for (const Binding& imager : options_.imagers)
         camera.picture.imagers.push_back(shader_use(*imager, nullptr));
     out_.cameras.push_back(std::move(camera));
@@ -328,6 +343,7 @@ void World::use_mesh(uint32_t mesh, uint32_t material, const Attributes& attribu
     worn.material = material;
     use.materials = {worn};
     use.lights = light_list(attributes);
+    use.visibility = attributes.visibility;
     out_.nodes[node(to_camera)].meshes.push_back(std::move(use));
 }
 
@@ -375,7 +391,8 @@ bool World::merges(const MeshDefinition& mesh, const Attributes& attributes,
 void World::merge(const MeshDefinition& mesh, const Attributes& attributes,
                   const Placement& placement) {
     const MergedMeshes::Look look{material(attributes, camera_from_world_, true),
-                                  light_list(attributes), attributes.name};
+                                  light_list(attributes), bits_of(attributes.visibility),
+                                  attributes.name};
     const uint32_t begun =
         merged_.add(out_.meshes, mesh, look, placement.to_world, attributes.color);
     triangles_ += mesh.groups[0].triangles.size() / 3;

@@ -236,16 +236,14 @@ TEST(RiCamera, SamplesFiltersAndExposureAreKept) {
     EXPECT_EQ(r.picture().samples, 12);
     EXPECT_EQ(r.picture().filter, "mitchell");
     EXPECT_EQ(r.picture().filter_width, 4);
-    EXPECT_EQ(r.picture().gain, 2);
-    EXPECT_NEAR(r.picture().gamma, 2.2, 1e-6);
+    EXPECT_EQ(r.picture().exposure.gain, 2);
+    EXPECT_NEAR(r.picture().exposure.gamma, 2.2, 1e-6);
     ASSERT_EQ(r.picture().displays.size(), 2u);
     EXPECT_EQ(r.picture().displays[0].name, "a.tif");
-    EXPECT_EQ(r.picture().displays[0].quantization.one, 1023);
-    EXPECT_FALSE(r.picture().displays[0].added);
+    EXPECT_EQ(r.picture().displays[0].quantization->one, 1023);
     EXPECT_EQ(r.picture().displays[1].name, "b.tif");
     EXPECT_EQ(r.picture().displays[1].mode, "z");
-    EXPECT_TRUE(r.picture().displays[1].added);
-    EXPECT_EQ(r.picture().displays[1].quantization.one, 0);
+    EXPECT_EQ(r.picture().displays[1].quantization->one, 0);
 }
 
 TEST(RiCamera, ADisplayWithoutPlusReplacesThoseBefore) {

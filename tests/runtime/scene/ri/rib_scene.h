@@ -144,12 +144,19 @@ struct RibPicture {
         request.scene = path;
         request.quality = *find_quality(kDefaultQuality);
         request.lights = LightSet::Scene;
+        request.displays = true;
         return request;
     }
     std::string findings() const { return findings_of(scene.diagnostics()); }
     int count(std::string_view code) const { return count_of(scene.diagnostics(), code); }
     vec4 at(int x, int y) const {
         return x < film.width && y < film.height ? film.at(x, y) : vec4(-1);
+    }
+    // A plane of the film; -1: there is none of that name.
+    float plane(const std::string& name, int x, int y) const {
+        for (const raytrace::AovPlane& plane : film.aovs)
+            if (plane.name == name) return plane.values[size_t(y * film.width + x)];
+        return -1;
     }
     bool covers(int x, int y) const { return at(x, y).w > 0.5f; }
     int covered() const {
