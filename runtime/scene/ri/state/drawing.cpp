@@ -41,6 +41,15 @@ Tessellation Interpreter::judged(const Call& call, Tessellation made,
     return made;
 }
 
+// Once for each kind of curved surface: exporters write caps without a radius by the hundreds.
+void Interpreter::nothing_left(const Call& call) {
+    const std::string_view name = row(call.request).name;
+    constexpr const char* kWhy =
+        "its numbers leave no area: a size of 0, knots that fall, or what is not finite";
+    if (!is_polygon(call.request) && report_.is_new(fmt::format("{} {}", name, kWhy)))
+        report_.add(Code::RI_RANGE, name, kWhy);
+}
+
 void Interpreter::primitive(const Call& call) {
     if (!is_visible()) return;
     // Calls of a list that is played again stand where they stood.
@@ -67,7 +76,7 @@ void Interpreter::primitive(const Call& call) {
     } else {
         return report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
     }
-    if (!mesh) return;
+    if (!mesh) return nothing_left(call);
     mesh->where = call.where;
     state_.world->add(std::move(*mesh), state_.attributes, to_camera);
     if (key) state_.world->keep_mesh(key, state_.attributes, to_camera);
