@@ -43,11 +43,13 @@ Tessellation Interpreter::judged(const Call& call, Tessellation made,
 
 // Once for each kind of curved surface: exporters write caps without a radius by the hundreds.
 void Interpreter::nothing_left(const Call& call) {
+    if (is_polygon(call.request)) return;
     const std::string_view name = row(call.request).name;
-    constexpr const char* kWhy =
-        "its numbers leave no area: a size of 0, knots that fall, or what is not finite";
-    if (!is_polygon(call.request) && report_.is_new(fmt::format("{} {}", name, kWhy)))
-        report_.add(Code::RI_RANGE, name, kWhy);
+    const std::string_view why =
+        call.request == Request::SubdivisionMesh
+            ? "no face is left; those at the boundary need the tag \"interpolateboundary\""
+            : "its numbers leave no area: a size of 0, knots that fall, or what is not finite";
+    if (report_.is_new(fmt::format("{} {}", name, why))) report_.add(Code::RI_RANGE, name, why);
 }
 
 void Interpreter::primitive(const Call& call) {

@@ -104,6 +104,14 @@ TEST(RiExtremes, NurbsWithoutADomainAreTold) {
     }
 }
 
+TEST(RiExtremes, MeshesOfBoundariesAloneAreTold) {
+    RibPicture r = with_good(
+        "SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] \"P\" "
+        "[-1 -1 1 1 -1 1 1 1 1 -1 1 1]");
+    EXPECT_EQ(r.count("RI_RANGE"), 1) << r.findings();
+    EXPECT_NE(r.findings().find("interpolateboundary"), std::string::npos);
+}
+
 TEST(RiExtremes, MoreThanATurnIsOne) {
     for (const char* turns : {"Sphere .5 -.5 .5 3600000", "Torus .4 .1 0 360 -1e30",
                               "Torus .4 .1 0 1e9 360", "Disk 0 .5 1e20"}) {
