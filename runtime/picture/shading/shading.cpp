@@ -15,6 +15,7 @@
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/transmission.h"
+#include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -68,7 +69,7 @@ struct Shading::Objects {
     // The others run once: volumes ask all lights, and see what those held then.
     bool all_ran = false;
     bool reads_footprints = false;
-    bool fills_space = false;  // an atmosphere or an exterior
+    bool fills_space = false;  // an atmosphere of the background, or an exterior
     bool has_mattes = false;
 
     ShadingCounters counted() const {  // by all threads, in this frame
@@ -104,8 +105,10 @@ Shading::Shading(const Scene& scene, const Pose& pose) {
     objects_->looks_run = looks_that_run(scene, objects_->lights);
     objects_->reads_footprints = kinora::reads_footprints(scene);
     objects_->has_mattes = std::ranges::any_of(scene.surfaces, &Surface::matte);
+    // Files that bring their picture are RIB, where an atmosphere is a surface's attribute.
+    const bool surfaces_alone = scene.description && scene.description->file_picture;
     objects_->fills_space =
-        scene.atmosphere != kNone ||
+        (scene.atmosphere != kNone && !surfaces_alone) ||
         std::ranges::any_of(looks, [](const auto& look) { return look->exterior; });
 }
 Shading::~Shading() = default;

@@ -15,7 +15,8 @@
 namespace kinora::ri {
 namespace {
 
-constexpr int kDeepest = 64;  // streams that are read for others
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";  // that some editors write before a text
+constexpr int kDeepest = 64;                            // streams that are read for others
 
 // The context's, while it reads.
 class CurrentContext {
@@ -168,6 +169,7 @@ bool begins_as_rib(std::string_view bytes) {
 
 bool looks_like_rib(std::string_view bytes) {
     constexpr size_t kEnough = 4096;
+    if (bytes.starts_with(kUtf8Mark)) bytes.remove_prefix(kUtf8Mark.size());
     if (is_zipped(bytes)) return begins_as_rib(unzip_beginning(bytes, kEnough));
     return begins_as_rib(bytes.substr(0, kEnough));
 }
@@ -201,6 +203,7 @@ bool BytestreamReader::read(const std::string& name, std::string bytes) {
     if (!unzipped.error.empty()) context.error(Code::RIB_GZIP, name, unzipped.error);
     if (!unzipped.error.empty() && unzipped.bytes.empty()) return false;
 
+    if (unzipped.bytes.starts_with(kUtf8Mark)) unzipped.bytes.erase(0, kUtf8Mark.size());
     FileId file = context.diagnostics().files.add(name, std::move(unzipped.bytes));
     ++state_->depth;
     bool is_rib = Stream(context, state_->handles, file, state_->stopped).read();

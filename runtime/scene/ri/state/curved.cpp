@@ -113,6 +113,14 @@ void take_direction(std::span<const Values> arguments, PatchDirection& to) {
     to.high = double(arguments[4].real());
 }
 
+// More than a turn lies on itself. The sweep is the last number of each quadric.
+void limit_turns(CurvedSurface& surface, size_t count) {
+    double* numbers = surface.numbers;
+    auto turn = [](double degrees) { return std::clamp(degrees, -360.0, 360.0); };
+    numbers[count - 1] = turn(numbers[count - 1]);
+    if (surface.kind == CurvedKind::Torus) numbers[3] = numbers[2] + turn(numbers[3] - numbers[2]);
+}
+
 }  // namespace
 
 std::optional<CurvedSurface> curved_surface(const Call& call, const Attributes& attributes) {
@@ -124,6 +132,7 @@ std::optional<CurvedSurface> curved_surface(const Call& call, const Attributes& 
         surface.kind = quadric->kind;
         for (size_t i = 0; i < call.arguments.size() && i < std::size(surface.numbers); ++i)
             surface.numbers[i] = double(call.arguments[i].real());
+        limit_turns(surface, call.arguments.size());
     } else if (call.request == Request::NuPatch) {
         surface.kind = CurvedKind::Nurbs;
         take_direction(call.arguments.subspan(0, 5), surface.u);

@@ -43,6 +43,17 @@ Tessellation Interpreter::judged(const Call& call, Tessellation made,
     return made;
 }
 
+// Once for each kind of curved surface: exporters write caps without a radius by the hundreds.
+void Interpreter::nothing_left(const Call& call) {
+    if (is_polygon(call.request)) return;
+    const std::string_view name = row(call.request).name;
+    const std::string_view why =
+        call.request == Request::SubdivisionMesh
+            ? "no face is left; those at the boundary need the tag \"interpolateboundary\""
+            : "its numbers leave no area: a size of 0, knots that fall, or what is not finite";
+    if (report_.is_new(fmt::format("{} {}", name, why))) report_.add(Code::RI_RANGE, name, why);
+}
+
 // Of a primitive that may come again. Where it has a steady size in the picture, `scale` becomes
 // that. Nothing: it is made as it comes.
 std::optional<MeshKey> Interpreter::key_of(const Call& call, PictureScale& scale) const {
@@ -65,13 +76,19 @@ std::optional<MeshDefinition> Interpreter::mesh_of_call(const Call& call, const 
     if (is_polygon(call.request)) {
         mesh = polygon_mesh(call, state_.attributes);
     } else if (call.request == Request::SubdivisionMesh) {
-        mesh = mesh_of(judged(call, subdivide(subdivision_of(call), scale, limits), limits));
+        const SubdivisionSurface surface = subdivision_of(call);
+        if (surface.points.empty()) return std::nullopt;
+        mesh = mesh_of(judged(call, subdivide(surface, scale, limits), limits));
     } else if (auto surface = curved_surface(call, state_.attributes)) {
         mesh = mesh_of(judged(call, tessellate(*surface, scale, limits), limits));
     } else {
         report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
+        return std::nullopt;
     }
-    if (mesh) mesh->where = call.where;
+    if (mesh)
+        mesh->where = call.where;
+    else
+        nothing_left(call);
     return mesh;
 }
 

@@ -69,6 +69,7 @@ class Interpreter : public CallSink {
     // Primitives (drawing.cpp).
     void primitive(const Call& call);
     Tessellation judged(const Call& call, Tessellation made, const TessellationLimits& limits);
+    void nothing_left(const Call& call);
     void geometry(const Call& call);
     void not_drawn(const Call& call);
     bool is_visible() const;

@@ -34,6 +34,11 @@ TEST(RibAscii, CommentsEndWithTheirLine) {
               (Texts{"Sides 2i", "WorldBegin"}));
 }
 
+TEST(RibAscii, AMarkOfUtf8BeforeTheTextIsNoFinding) {
+    EXPECT_TRUE(looks_like_rib("\xEF\xBB\xBFWorldBegin"));
+    EXPECT_EQ(calls("\xEF\xBB\xBFWorldBegin"), Texts{"WorldBegin"});
+}
+
 TEST(RibAscii, StringsHaveEscapes) {
     EXPECT_EQ(calls(R"(Orientation "a\n\t\"\\\101\60z\q")"),
               Texts{"Orientation \"a\n\t\"\\A0zq\""});

@@ -317,5 +317,15 @@ TEST_F(RiShaders, ParametersOfMeshesGoOverTheWhole) {
     expect_near(shown_at("Surface \"show_s_t\" " + mesh, 2, 2), {5 / 32., 27 / 32., 0});
 }
 
+// Half of the way into a fog of distance 1 / ln 2 the surface is half the fog's; nothing else is.
+TEST_F(RiShaders, AnAtmosphereLeavesTheBackgroundAsItIs) {
+    RibPicture r(kSmall +
+                 "WorldBegin Surface \"constant\" Color 1 0 0 Atmosphere \"fog\" \"distance\" "
+                 "1.442695 \"background\" [0 0 1] Translate 0 0 1 Disk 0 .5 360 WorldEnd");
+    r.expect(8, 8, {0.5, 0, 0.5}, 1e-3);
+    r.expect(0, 0, {0, 0, 0});
+    EXPECT_FALSE(r.covers(0, 0)) << r.findings();
+}
+
 }  // namespace
 }  // namespace kinora::ri
