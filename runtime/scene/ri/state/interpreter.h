@@ -11,7 +11,9 @@
 
 #include "runtime/scene/ri/calls/call_list.h"
 #include "runtime/scene/ri/state/attribute_calls.h"
+#include "runtime/scene/ri/state/branches.h"
 #include "runtime/scene/ri/state/option_calls.h"
+#include "runtime/scene/ri/state/recorded_shaders.h"
 #include "runtime/scene/ri/state/shader_calls.h"
 #include "runtime/scene/ri/state/transform_calls.h"
 
@@ -37,6 +39,7 @@ class Interpreter : public CallSink {
     void call(const Call& call) override;
     const Declaration* declared_by_shader(Request request, std::string_view shader,
                                           std::string_view token) override;
+    std::optional<CountState> count_state() override;
     bool transform_points(std::string_view from, std::string_view to,
                           std::span<float> points) override;
     // The file's end: closes what is open, with a finding.
@@ -56,9 +59,6 @@ class Interpreter : public CallSink {
     void object_instance(const Call& call);
     void archive_begin(const Call& call);
     void read_archive(const Call& call);
-    void if_begin(const Call& call);
-    void branch_else(const Call& call);
-    void if_end(const Call& call);
     bool record(const Call& call);
     void keep_archive(const std::string& name, std::shared_ptr<CallList> calls);
     bool enter(const std::string& name);
@@ -74,6 +74,7 @@ class Interpreter : public CallSink {
     bool is_visible() const;
 
     void dispatch(const Call& call);
+    const rsl::ShaderParameter* formal_of_primitive(std::string_view name);
     bool lists_alone() const { return state_.import.world == ImportOptions::kNoWorld; }
 
     StateReport report_;
@@ -83,8 +84,8 @@ class Interpreter : public CallSink {
     OptionCalls options_;
     AttributeCalls attributes_;
     TransformCalls transforms_;
+    Branches branches_;
     int worlds_ = 0;
-    std::optional<int> frame_;
 
     // What is kept instead of done: an archive, an object, or a motion block.
     struct Recording {
@@ -95,6 +96,7 @@ class Interpreter : public CallSink {
         std::vector<float> times;
         Location where;
         std::shared_ptr<CallList> calls = std::make_shared<CallList>();
+        RecordedShaders shaders = {};
     };
     std::vector<Recording> recording_;  // at most one but for motion in others
     std::map<std::string, std::shared_ptr<CallList>, std::less<>> archives_;
@@ -104,8 +106,6 @@ class Interpreter : public CallSink {
     std::vector<std::string> entered_;     // the objects and archives that are being read
     size_t replayed_ = 0;                  // calls of them
     const Call* replayed_call_ = nullptr;  // the last that came from a list
-    int skipped_branch_ = 0;               // depth of IfBegin within a branch that is not read
-    std::vector<bool> branches_;           // of open IfBegin: one was read
     Declaration formal_;                   // the last answer of declared_by_shader
 };
 

@@ -135,6 +135,7 @@ World::World(const Options& options, const std::string& path, const ImportOption
     : options_(options), camera_from_world_(camera_from_world), camera_(camera_of(options)) {
     out_.path = path;
     out_.up_axis = UpAxis::Y;
+    out_.textures_from_top = true;
     limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
     out_.world_space = turned_z(camera_from_world);
     camera_.picture.number = number;
@@ -205,6 +206,7 @@ ShaderUse World::shader_use(const ShaderBinding& binding, const dmat4* object_to
     ShaderUse use;
     use.shader = binding.shader;
     use.untinted = false;
+    use.links = binding.links;
     for (const ShaderArgument& argument : binding.arguments) {
         ParamSource source;
         source.name = argument.name;
@@ -236,11 +238,25 @@ uint32_t World::light(const Light& light) {
     definition.samples = uint32_t(std::max(light->samples, 0));
     definition.where = light->shader.where;
     out_.lights.push_back(std::move(definition));
+    if (light->area) return entry->second;  // it stands in materials; this is what lists name
     // A light's space is its node's with z turned round.
     uint32_t at = node(light->shader.to_camera, fmt::format("light node {}", entry->second));
     for (int r = 0; r < 3; ++r)
         out_.values[out_.nodes[at].transforms[0].value + size_t(4 * r + 2)] *= -1;
     out_.nodes[at].lights = {entry->second};
+    return entry->second;
+}
+
+// In SceneDescription::atmospheres; kNone: there are no shaders.
+uint32_t World::atmosphere(const std::vector<Binding>& bindings) {
+    if (bindings.empty()) return kNone;
+    auto [entry, is_new] = atmospheres_.try_emplace(bindings, uint32_t(out_.atmospheres.size()));
+    if (!is_new) return entry->second;
+    std::vector<ShaderUse>& uses = out_.atmospheres.emplace_back();
+    for (const Binding& binding : bindings) {
+        uses.push_back(shader_use(*binding, nullptr));
+        uses.back().space = space_name(binding->to_camera);
+    }
     return entry->second;
 }
 
@@ -254,9 +270,9 @@ std::vector<uint32_t> World::light_list(const Attributes& attributes) {
 }
 
 uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
-    const std::vector<Binding>* all[] = {&attributes.surfaces, &attributes.displacements,
+    const std::vector<Binding>* all[] = {&attributes.surfaces,     &attributes.displacements,
                                          &attributes.deformations, &attributes.interiors,
-                                         &attributes.exteriors};
+                                         &attributes.exteriors,    &attributes.atmospheres};
     std::string key;
     for (const auto* bindings : all) {
         for (const Binding& binding : *bindings)
@@ -301,7 +317,9 @@ uint32_t World::material(const Attributes& attributes, const dmat4& to_camera) {
         made.lights = {shader_use(attributes.area_light->shader, &to_camera)};
         made.light_shadows = attributes.area_light->shadows;
         made.light_samples = uint32_t(std::max(attributes.area_light->samples, 0));
+        made.light = light(attributes.area_light);
     }
+    made.atmosphere = atmosphere(attributes.atmospheres);
     out_.materials.push_back(std::move(made));
     return entry->second;
 }
@@ -314,9 +332,6 @@ void World::use_mesh(uint32_t mesh, const Attributes& attributes, const dmat4& t
     use.materials = {worn};
     use.lights = light_list(attributes);
     out_.nodes[node(to_camera)].meshes.push_back(std::move(use));
-    if (out_.picture.atmosphere.empty() && !attributes.atmospheres.empty())
-        for (const Binding& binding : attributes.atmospheres)
-            out_.picture.atmosphere.push_back(shader_use(*binding, nullptr));
 }
 
 void World::add(MeshDefinition mesh, const Attributes& attributes, const dmat4& to_camera) {

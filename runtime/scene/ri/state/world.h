@@ -59,6 +59,7 @@ class World {
     uint32_t light(const Light& light);
     uint32_t node(const dmat4& to_camera, std::string id = "");
     std::string space_name(const dmat4& to_camera);
+    uint32_t atmosphere(const std::vector<Binding>& bindings);
     std::vector<uint32_t> light_list(const Attributes& attributes);
     void add_camera();
     void settle_lights();
@@ -69,6 +70,7 @@ class World {
     SceneDescription out_;
     std::map<std::string, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
+    std::map<std::vector<Binding>, uint32_t> atmospheres_;
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
     std::map<std::array<double, 16>, uint32_t> nodes_;
     std::map<std::array<double, 16>, std::string> spaces_;
