@@ -1,4 +1,6 @@
 // collada/extract/instances.cpp: meshes, lights and cameras that a node shows.
+#include <algorithm>
+
 #include "collada/extract/extract_p.h"
 #include "collada/text/numbers_p.h"
 
@@ -47,6 +49,25 @@ void read_bind_material(Extraction& x, Link instance, MeshInstance& mesh, uint32
     for (const Element& child : common->children())
         if (child.name == "instance_material")
             read_material_instance(x, {instance.doc, &child}, mesh, node_number, mesh_number);
+}
+
+// <extra><technique profile="RSL"><lights><light url="#lamp"/></lights> of a mesh, or of its node.
+std::optional<std::vector<uint32_t>> read_light_list(Extraction& x, Link owner) {
+    const Element* technique = extra_technique(*owner.element, "RSL");
+    const Element* list = technique ? technique->child("lights") : nullptr;
+    if (!list) return std::nullopt;
+    std::vector<uint32_t> lights;
+    for (const Element& child : list->children()) {
+        if (child.name != "light") continue;
+        if (!x.budget.reserve(sizeof(uint32_t), x.where(owner))) break;
+        Link target = resolve(x, {owner.doc, &child}, "url", {"light"});
+        uint32_t light = target ? light_index(x, target) : kNone;
+        if (light != kNone) lights.push_back(light);
+    }
+    std::ranges::sort(lights);
+    auto repeated = std::ranges::unique(lights);
+    lights.erase(repeated.begin(), repeated.end());
+    return lights;
 }
 
 // Sets the skin, morph and geometry of a <controller>; false if it shows nothing. A morph that is
@@ -193,6 +214,8 @@ void read_mesh_instance(Extraction& x, Link link, Node& node, uint32_t node_numb
     read_bind_material(x, link, mesh, node_number, mesh_number);
     bind_only_material(x, link, mesh, node_number, mesh_number);
     report_unbound(x, link, mesh);
+    mesh.lights = read_light_list(x, link);
+    if (!mesh.lights) mesh.lights = read_light_list(x, {link.doc, link.element->parent});
     for (MaterialBinding& binding : mesh.materials) bind_texcoords(x, mesh.geometry, binding);
     if (mesh.skin != kNone) {
         for (const Element& child : link.element->children())

@@ -73,6 +73,8 @@ struct MeshInstance {
     std::vector<uint32_t> skeleton_roots;  // node definitions of <skeleton>, in order
     std::vector<MaterialBinding> materials;
     uint32_t conversion = kNone;  // index into SceneData::conversions: apply to the mesh first
+    // <extra><technique profile="RSL"><lights>: those that light it, sorted; nothing: all do.
+    std::optional<std::vector<uint32_t>> lights;
     Location where;
 };
 

@@ -169,10 +169,23 @@ jit::InputInfo BoundParameters::element_input(std::string_view name, BaseType ty
 // A binding's value, in the layer's current; `element` of an array type.
 Lowered BoundParameters::bound_value(const ParamBinding& bound, std::string_view name, Type type,
                                      int element) {
+    if (bound.kind == ParamBinding::Kind::Layer) return left_by_layer(bound, type, element);
     Lowered value = bound_input(bound, name, type, element);
     if (bound.plain) return value;
     return bound.kind == ParamBinding::Kind::Varying ? spaces_.from_object(value)
                                                      : spaces_.into_layer(value);
+}
+
+// What a layer below left, in the layer's current; zero where there is no such.
+Lowered BoundParameters::left_by_layer(const ParamBinding& bound, Type type, int element) {
+    const Messages::Message* left =
+        bound.below <= context_.layer_index
+            ? messages_.find(context_.layer_index - bound.below, bound.variable)
+            : nullptr;
+    if (!left) return zero(e_, type.base);
+    std::vector<Lowered> values = messages_.values(*left);
+    if (size_t(element) >= values.size()) return zero(e_, type.base);
+    return spaces_.into_layer(convert(e_, values[size_t(element)], type.base));
 }
 
 Lowered BoundParameters::bound_input(const ParamBinding& bound, std::string_view name, Type type,

@@ -6,6 +6,7 @@
 
 #include "rsl/lower/context.h"
 #include "rsl/lower/math.h"
+#include "rsl/lower/messages.h"
 #include "rsl/lower/slots.h"
 #include "rsl/lower/spaces.h"
 
@@ -14,8 +15,9 @@ namespace kinora::rsl {
 // Parameters by their bindings.
 class BoundParameters {
   public:
-    BoundParameters(Emitter& emitter, LoweringContext& context, Spaces& spaces)
-        : e_(emitter), b_(emitter.b), context_(context), spaces_(spaces) {}
+    BoundParameters(Emitter& emitter, LoweringContext& context, Spaces& spaces,
+                    const Messages& messages)
+        : e_(emitter), b_(emitter.b), context_(context), spaces_(spaces), messages_(messages) {}
 
     // A binding's value, in the layer's current; `element` of an array type.
     Lowered bound_value(const ParamBinding& bound, std::string_view name, Type type, int element);
@@ -24,11 +26,13 @@ class BoundParameters {
 
   private:
     Lowered bound_input(const ParamBinding& bound, std::string_view name, Type type, int element);
+    Lowered left_by_layer(const ParamBinding& bound, Type type, int element);
 
     Emitter& e_;
     jit::Builder& b_;
     LoweringContext& context_;
     Spaces& spaces_;
+    const Messages& messages_;
 };
 
 // Shader globals: inputs of the kernel until the shader writes them.

@@ -74,7 +74,7 @@ void LayerWriter::declare(const Layer& next) {
     for (const ShaderParameter& p : next.shader->parameters)
         if (!p.type.is_array())
             messages_.add({next.shader->kind, std::string(p.name), p.type,
-                           variables_.parameter(*p.symbol), -1});
+                           variables_.parameter(*p.symbol), -1, context_.layer_index});
 }
 
 void LayerWriter::run(const Layer& next) {
@@ -113,7 +113,8 @@ void LayerWriter::first_values(const Shader& shader) {
 
 void LayerWriter::leave_messages(const Shader& shader) {
     for (const ShaderParameter& parameter : shader.parameters) {
-        Messages::Message message{shader.kind, std::string(parameter.name), parameter.type, {}, -1};
+        Messages::Message message{shader.kind, std::string(parameter.name), parameter.type, {},
+                                  -1,          context_.layer_index};
         bool last = context_.layer == &context_.layers.back() &&
                     context_.options.messages.empty() && context_.options.aovs.empty();
         if (!parameter.type.is_array()) {
@@ -137,8 +138,12 @@ void LayerWriter::leave_named_outputs(const Shader& shader) {
         if (!type || std::ranges::any_of(shader.parameters, declared)) continue;
         for (const NamedTable& table : shader.definition->named_tables)
             if (table.values->type.base == *type)
-                messages_.add(
-                    {shader.kind, name, {*type, -1}, variables_.find_named(table, name), -1});
+                messages_.add({shader.kind,
+                               name,
+                               {*type, -1},
+                               variables_.find_named(table, name),
+                               -1,
+                               context_.layer_index});
     }
 }
 
@@ -402,7 +407,7 @@ class KernelWriter final : public TreeWalk {
     Regions regions_{emitter_, slots_};
     Arrays arrays_{emitter_, context_, slots_};
     Messages messages_{emitter_.b, arrays_};
-    BoundParameters parameters_{emitter_, context_, spaces_};
+    BoundParameters parameters_{emitter_, context_, spaces_, messages_};
     Globals globals_{emitter_, context_, spaces_, parameters_, slots_};
     Variables variables_{emitter_, context_,    slots_,   regions_,
                          arrays_,  parameters_, globals_, *this};

@@ -18,12 +18,19 @@ class Messages {
         std::string name;
         Type type;
         Lowered value;
-        int array = -1;  // index in Arrays
+        int array = -1;    // index in Arrays
+        size_t layer = 0;  // whose it was
     };
     using State = std::vector<Message>;
 
     void add(Message message) { list_.push_back(std::move(message)); }
     const std::vector<Message>& list() const { return list_; }
+    // Null: the layer left none of that name.
+    const Message* find(size_t layer, std::string_view name) const {
+        for (const Message& message : list_)
+            if (message.layer == layer && message.name == name) return &message;
+        return nullptr;
+    }
     // The elements of a message, plain numbers; one if it is no array.
     std::vector<Lowered> values(const Message& message) const {
         if (message.array < 0) return {message.value};

@@ -88,7 +88,8 @@ void Recursion::find_outside(Recursive& r, const CallExpr& e) {
         if (inside) continue;
         const ParamBinding* bound = context_.binding(symbol->name);
         bool known = bound && bound->kind == ParamBinding::Kind::Constant;
-        bool again = symbol->kind == SymbolKind::Parameter && !symbol->assigned &&
+        bool of_layer = bound && bound->kind == ParamBinding::Kind::Layer;
+        bool again = symbol->kind == SymbolKind::Parameter && !symbol->assigned && !of_layer &&
                      (known || symbol->type.base == BaseType::String || symbol->type.is_array());
         if (again) continue;
         if (symbol->global) seen[size_t(symbol->global->id)] = true;

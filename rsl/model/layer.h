@@ -16,6 +16,7 @@ struct ParamBinding {
         Constant,  // a string, or a float that is exactly 0 or 1 and not animated, or one that
                    // reaches a condition or loop bound: folded into the code
         Varying,   // bound to a vertex input: a point-rate input
+        Layer,     // what a layer below left in a parameter of its own
         Default    // not bound: the shader's own default expression, lowered
     };
     std::string name;
@@ -23,6 +24,8 @@ struct ParamBinding {
     std::vector<float> constant;       // components (all elements of an array)
     std::vector<std::string> strings;  // for string parameters
     bool plain = false;                // Varying: what a displacement left, numbers of no space
+    uint32_t below = 0;                // Layer: so many layers
+    std::string variable = {};         // Layer: of that one
 };
 
 // One shader of a stack: displacements first (bottom first), then surfaces (bottom first).

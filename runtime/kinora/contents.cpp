@@ -118,6 +118,8 @@ std::vector<ListedParameter> listed_parameters(const Scene& scene) {
             for (const ShaderUse& use : *stack) add(std::string(use.shader->name), use);
     };
     of_picture(description.picture);
+    for (const auto& atmosphere : description.atmospheres)
+        for (const ShaderUse& use : atmosphere) add(std::string(use.shader->name), use);
     for (const CameraDefinition& camera : description.cameras) of_picture(camera.picture);
     return list;
 }

@@ -14,6 +14,7 @@ struct LightSource {
     uint32_t node = kNone;
     uint32_t look = kNone;
     uint32_t surface = kNone;  // whose triangles shine; kNone: no area light
+    uint32_t listed = kNone;   // the definition that surfaces list; kNone: it reaches all
 };
 
 struct SceneLights {

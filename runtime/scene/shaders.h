@@ -26,8 +26,9 @@ struct SceneShaders {
     std::vector<std::shared_ptr<ShaderInstance>> shader_instances;
     // Displacements and transformations.
     std::vector<std::shared_ptr<ShaderInstance>> vertex_instances;
-    uint32_t atmosphere = kNone;  // the volume outside all objects, into shader_instances
-    uint32_t imager = kNone;      // what the finished picture is run through, into shader_instances
+    uint32_t atmosphere = kNone;   // the volume outside all objects, into shader_instances
+    bool own_atmospheres = false;  // some surfaces have one of their own
+    uint32_t imager = kNone;  // what the finished picture is run through, into shader_instances
     std::vector<OutputPlane> outputs;
     // Interiors and exteriors, into shader_instances: ShaderInstance::volume is k + 1.
     std::vector<uint32_t> volumes;

@@ -88,6 +88,7 @@ struct Surface {
     uint32_t interior =
         kNone;  // volumes inside and around, into Scene::shader_instances; kNone: none
     uint32_t exterior = kNone;
+    uint32_t atmosphere = kNone;  // of camera rays to it alone, likewise
     uint32_t seen_by = raytrace::kSeenByAll;
     bool matte = false;
     const VertexAttribute* st = nullptr;  // the bound or lowest TEXCOORD set; null if none

@@ -116,7 +116,10 @@ void explain_lights(const Scene& scene, const Pose& pose, ExplainedRows& rows) {
     std::set<uint32_t> looks, placed;
     for (const Surface& surface : scene.surfaces) looks.insert(surface.look);
     for (uint32_t look : looks) explain_look(scene, pose, bindings, look, rows);
-    for (const LightSource& source : scene.lights) placed.insert(source.definition);
+    for (const LightSource& source : scene.lights) {
+        placed.insert(source.definition);
+        if (source.listed != kNone) placed.insert(source.listed);
+    }
     if (const size_t unplaced = scene.description->lights.size() - placed.size())
         rows.leave_out(fmt::format("{} lights", unplaced), "never run",
                        "no node that is shown has them, or --lights left them out");

@@ -62,7 +62,10 @@ constexpr PassRow kPasses[] = {
                                     [](const auto& l) { return l->opacity.has_value(); });
      },
      "rays go on behind surfaces", "an Oi is not 1", "every Oi is 1"},
-    {"volumes", [](const Scene& s) { return !s.volumes.empty() || s.atmosphere != kNone; },
+    {"volumes",
+     [](const Scene& s) {
+         return !s.volumes.empty() || s.atmosphere != kNone || s.own_atmospheres;
+     },
      "segments of rays are shaded", "an object or the scene has a volume shader",
      "no volume shader"},
     {"imager", [](const Scene& s) { return s.imager != kNone; },

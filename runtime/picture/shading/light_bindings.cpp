@@ -64,7 +64,7 @@ LightOutputs statement_of(const ShaderInstance& look, size_t index,
     statement.lit = find(rsl::kLightLit, 0);
     statement.spread = find(rsl::kLightSpread, 0);
     statement.casts_shadow = from.casts_shadow;
-    if (definition.shadows) statement.casts_shadow = *definition.shadows;
+    if (definition.shadows && mode != ShadowMode::All) statement.casts_shadow = *definition.shadows;
     if (mode == ShadowMode::Explicit) statement.casts_shadow = definition.shadows.value_or(false);
     if (mode == ShadowMode::Off || from.kind == rsl::kLightAmbient) statement.casts_shadow = false;
     return statement;
@@ -101,10 +101,9 @@ bool asks_for(const rsl::LoweredShader& surface, const rsl::LoweredShader& light
     return (ambient && surface.lit_by_ambient) || (directed && (surface.lit_by_all || named));
 }
 
-// Light on geometry reaches all surfaces.
 bool is_lit_by(const ShaderInstance& surface, const LightSource& light) {
-    return !surface.lights || light.surface != kNone ||
-           std::ranges::binary_search(*surface.lights, light.definition);
+    return !surface.lights || light.listed == kNone ||
+           std::ranges::binary_search(*surface.lights, light.listed);
 }
 
 // What a surface reads of a light: its categories' bits, the outputs behind its messages.

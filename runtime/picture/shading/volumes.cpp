@@ -6,7 +6,8 @@
 // eye), so that layers seen through each other are fogged once each and add up front to back like
 // one way. Which volume it is follows from the side of the surface that the ray meets: from outside
 // (dir . Ng < 0) its exterior, from inside its interior; a surface that has none leaves the ray in
-// what it had entered (runtime/scene/medium.h), and that is at first the atmosphere. This is right
+// what it had entered (runtime/scene/medium.h), and that is at first the atmosphere: for camera
+// rays to a surface with one of its own, that. This is right
 // for closed meshes; a camera inside an object sees its interior on what encloses it, not on other
 // things within.
 #include "runtime/picture/shading/volumes.h"
@@ -31,7 +32,8 @@ bool from_outside(const raytrace::HitBatch& hits, size_t k) {
 }
 
 // The look of the volume that hit k was seen through, kNone if none.
-uint32_t volume_before(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k) {
+uint32_t volume_before(const ShadingFrame& frame, const raytrace::HitBatch& hits, const RayTag& ray,
+                       size_t k) {
     uint32_t within = innermost(medium_before(hits, k));
     uint32_t around = within ? frame.shaders.volumes[within - 1] : frame.shaders.atmosphere;
     uint32_t row = hits.instance[k];
@@ -42,7 +44,9 @@ uint32_t volume_before(const ShadingFrame& frame, const raytrace::HitBatch& hits
     }
     const Surface& surface = frame.shapes.surfaces[row];
     uint32_t own = from_outside(hits, k) ? surface.exterior : surface.interior;
-    return own != kNone ? own : around;
+    if (own != kNone) return own;
+    const bool from_eye = !within && ray.type == RayType::Camera;
+    return from_eye && surface.atmosphere != kNone ? surface.atmosphere : around;
 }
 
 }  // namespace
@@ -73,7 +77,8 @@ struct Volumes::Order {
     std::span<uint32_t> begin;   // by look; one more than there are
 };
 
-Volumes::Order Volumes::sort(const raytrace::HitBatch& hits, Arena& arena, bool fills_only) const {
+Volumes::Order Volumes::sort(const raytrace::HitBatch& hits, const RayTag& ray, Arena& arena,
+                             bool fills_only) const {
     const SceneShaders& shaders = frame_.shaders;
     size_t looks = shaders.shader_instances.size();
     std::span<uint32_t> volume = arena.allocate_span<uint32_t>(hits.count);
@@ -81,7 +86,7 @@ Volumes::Order Volumes::sort(const raytrace::HitBatch& hits, Arena& arena, bool 
     order.begin = arena.allocate_span<uint32_t>(looks + 1);
     std::fill(order.begin.begin(), order.begin.end(), 0u);
     for (size_t k = 0; k < hits.count; ++k) {
-        volume[k] = volume_before(frame_, hits, k);
+        volume[k] = volume_before(frame_, hits, ray, k);
         // A shadow ray that meets nothing has reached its light, perhaps within an object.
         uint32_t within = innermost(medium_before(hits, k));
         if (fills_only && hits.instance[k] == kNone && within &&
@@ -141,9 +146,10 @@ void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, Lig
 
 void Volumes::apply(const raytrace::HitBatch& hits, const RayTag& ray, LightShadows& shadows,
                     ThreadMemory& memory, raytrace::ShadeResult& result) {
-    if (frame_.shaders.atmosphere == kNone && frame_.shaders.volumes.empty()) return;
+    const SceneShaders& shaders = frame_.shaders;
+    if (shaders.atmosphere == kNone && shaders.volumes.empty() && !shaders.own_atmospheres) return;
     Arena::Mark mark = memory.arena.mark();
-    for_each_grid(sort(hits, memory.arena, false),
+    for_each_grid(sort(hits, ray, memory.arena, false),
                   [&](const ShaderInstance& look, std::span<const uint32_t> points) {
                       Grid grid(frame_, memory, hits, points, &look);
                       shade(grid, look.full, ray, &shadows, result);
@@ -155,7 +161,7 @@ void Volumes::apply(const raytrace::HitBatch& hits, const RayTag& ray, LightShad
 void Volumes::pass(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
                    vec3* Oi) {
     Arena::Mark mark = memory.arena.mark();
-    Order order = sort(hits, memory.arena, true);
+    Order order = sort(hits, ray, memory.arena, true);
     raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
     for (size_t k = 0; k < 3; ++k) {
         std::fill_n(result.Ci[k], padded(hits.count), 0.0f);

@@ -28,7 +28,8 @@ class Volumes {
 
   private:
     struct Order;
-    Order sort(const raytrace::HitBatch& hits, Arena& arena, bool fills_only) const;
+    Order sort(const raytrace::HitBatch& hits, const RayTag& ray, Arena& arena,
+               bool fills_only) const;
     template <class F>
     void for_each_grid(const Order& order, F&& f) const;
     void shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, LightShadows* shadows,

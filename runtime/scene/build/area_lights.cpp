@@ -24,7 +24,8 @@ bool add_area_lights(SceneDescription& description, const SceneShapes& shapes, S
             definition.samples = material.light_samples;
             description.lights.push_back(std::move(definition));
             scene.lights.push_back({uint32_t(description.lights.size() - 1),
-                                    shapes.shapes[shapes.surfaces[s].shape].node, kNone, s});
+                                    shapes.shapes[shapes.surfaces[s].shape].node, kNone, s,
+                                    material.light});
         }
     }
     return scene.lights.size() > before;

@@ -32,7 +32,8 @@ std::unique_ptr<Scene> empty_scene(std::shared_ptr<SceneDescription> description
                                    std::shared_ptr<TextureStore> textures) {
     auto scene = std::make_unique<Scene>();
     if (!textures)
-        textures = std::make_shared<TextureStore>(description->pictures, options.decode_textures);
+        textures = std::make_shared<TextureStore>(description->pictures, options.decode_textures,
+                                                  description->textures_from_top);
     scene->textures = std::move(textures);
     scene->points = std::make_shared<PointStore>(description->readable);
     scene->description = std::move(description);

@@ -25,7 +25,7 @@ bool add_lights_of_nodes(Scene& scene, const NodeTree& tree) {
     for (uint32_t n = 0; n < scene.nodes.size(); ++n)
         for (uint32_t light : tree.definition(n).lights) {
             if (scene.nodes[n].hidden) continue;
-            scene.lights.push_back({light, n, kNone, kNone});
+            scene.lights.push_back({light, n, kNone, kNone, light});
             lit |= !scene.description->lights[light].ambient;
         }
     return lit;
@@ -59,7 +59,7 @@ void add_default_light(Scene& scene, LightDefinition definition, uint32_t node) 
     SceneDescription& description = *scene.description;
     take_added_values(description, scene.start);
     description.lights.push_back(std::move(definition));
-    scene.lights.push_back({uint32_t(description.lights.size() - 1), node, kNone, kNone});
+    scene.lights.push_back({uint32_t(description.lights.size() - 1), node, kNone, kNone, kNone});
     scene.added.push_back(description.lights.back().name);
 }
 

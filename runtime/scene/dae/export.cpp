@@ -17,6 +17,7 @@
 #include "runtime/scene/dae/export_p.h"
 #include "runtime/scene/description/display_color.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/interface_losses.h"
 #include "runtime/scene/description/picture_rules.h"
 #include "runtime/scene/transforms.h"
 
@@ -246,6 +247,13 @@ std::string ColladaExporter::vertex_inputs(const MaterialUse& use,
     return text;
 }
 
+std::string ColladaExporter::light_list(const std::vector<uint32_t>& lights) const {
+    std::string list;
+    for (uint32_t light : lights)
+        list += xml("light", attribute("url", "#" + light_ids_[light]), "");
+    return xml("extra", "", xml("technique", attribute("profile", "RSL"), xml("lights", "", list)));
+}
+
 std::string ColladaExporter::mesh_instance(const MeshUse& use) {
     const MeshDefinition& mesh = description_.meshes[use.mesh];
     bool controlled = use.skin != kNone || use.morph != kNone;
@@ -272,6 +280,7 @@ std::string ColladaExporter::mesh_instance(const MeshUse& use) {
     }
     if (!materials.empty())
         content += xml("bind_material", "", xml("technique_common", "", materials));
+    if (use.lights) content += light_list(*use.lights);
     return xml(controlled ? "instance_controller" : "instance_geometry",
                attribute("url", "#" + url), content);
 }
@@ -338,6 +347,8 @@ std::string ColladaExporter::library(const char* name, const std::string& conten
 ColladaExport ColladaExporter::run() {
     name_all();
     merge_vertices();
+    for (std::string_view what : interface_losses(description_))
+        lost("the scene", std::string(what));
     std::string shared, tops, geometries, lights, cameras, scene_extra;
     for (uint32_t n = 0; n < description_.nodes.size(); ++n)
         if (uses_[n] > 1) shared += node(n);

@@ -53,6 +53,7 @@ class ColladaExporter {
     std::string node(uint32_t index);
     std::string child(const ChildUse& use);
     std::string mesh_instance(const MeshUse& use);
+    std::string light_list(const std::vector<uint32_t>& lights) const;
     std::string vertex_inputs(const MaterialUse& use, const PrimitiveGroup& group) const;
     bool is_below_hidden(uint32_t node) const;  // or is hidden itself
     std::string library(const char* name, const std::string& content) const;

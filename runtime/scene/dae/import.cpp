@@ -220,6 +220,7 @@ MeshUse ColladaImport::mesh_use(const collada::MeshInstance& instance) {
     use.morph = instance.morph;
     use.skin = instance.skin;
     use.joint_nodes = instance.joint_nodes;
+    use.lights = instance.lights;
     use.conversion = conversion(instance.conversion);
     for (const collada::MaterialBinding& binding : instance.materials) {
         MaterialUse& material = use.materials.emplace_back();

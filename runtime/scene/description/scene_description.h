@@ -180,13 +180,27 @@ struct ParamSource {
     bool by_columns = false;  // a node's <matrix>, written for column vectors: RSL's are for rows
 };
 
+// A parameter, or Cs or Os, that has what a shader below in the stack left in one of its own.
+struct LayerLink {
+    std::string param;
+    uint32_t below = 1;  // so many layers
+    std::string variable;
+};
+
 struct ShaderUse {
     std::shared_ptr<const rsl::Shader> shader;
     std::vector<ParamSource> params;
     bool linear_inputs = false;  // reads kLinearColor in place of COLOR where there is one
     bool untinted = false;       // Cs is 1, whatever colours the mesh has
     std::string space = {};      // the id of the node whose space is "shader"; "": the object's
+    std::vector<LayerLink> links = {};
 
+    // What gives a parameter its value; null: no layer below does.
+    const LayerLink* find_link(std::string_view param) const {
+        for (const LayerLink& link : links)
+            if (link.param == param) return &link;
+        return nullptr;
+    }
     // What a parameter is bound to; null: to nothing.
     const ParamSource* find(std::string_view name) const {
         for (const ParamSource& source : params)
@@ -204,6 +218,10 @@ struct MaterialDefinition {
     std::vector<ShaderUse> lights;              // make the geometry an area light
     uint32_t light_samples = 0;                 // 0: Quality::light_samples
     std::optional<bool> light_shadows;
+    uint32_t light =
+        kNone;  // the definition that MeshUse::lights name it by; kNone: it reaches all
+    uint32_t atmosphere =
+        kNone;  // of camera rays to it, into SceneDescription::atmospheres; kNone: the picture's
     bool hide_backfaces = false;
 };
 
@@ -271,6 +289,7 @@ struct SceneDescription {
     std::vector<SkinDefinition> skins;
     std::vector<MorphDefinition> morphs;
     std::vector<MaterialDefinition> materials;
+    std::vector<std::vector<ShaderUse>> atmospheres;  // those that materials have of their own
     std::vector<LightDefinition> lights;
     std::vector<LightDefinition> default_lights;     // they replace runtime/scene/build/defaults.h
     std::vector<std::string> hidden_default_lights;  // names of those that are not added (--hide)
@@ -285,7 +304,10 @@ struct SceneDescription {
     std::optional<double> start_time, end_time, frame_rate;
     std::vector<std::string> inputs;  // read besides the texts in Diagnostics, for fingerprints
     std::vector<std::shared_ptr<const MemoryFile>> memory_files;  // images inside the scene's file
-    AllowedPaths pictures;   // where textures and maps may lie: anywhere, unless they are confined
+    AllowedPaths pictures;  // where textures and maps may lie: anywhere, unless they are confined
+    // t of texture() is 0 at the top of a picture, as the RenderMan Interface has it; else at the
+    // bottom, as COLLADA has it.
+    bool textures_from_top = false;
     dmat4 world_space{1.0};  // from what shaders call "world"; formats may bring scenes turned
     std::optional<FilePicture> file_picture;
 };
@@ -304,6 +326,7 @@ void for_each_shader_use(Description& description, F&& f) {
         all(m.lights);
     }
     for (auto& light : description.lights) f(light.shader);
+    for (auto& atmosphere : description.atmospheres) all(atmosphere);
     all(description.picture.atmosphere, description.picture.imagers);
     for (auto& camera : description.cameras) all(camera.picture.atmosphere, camera.picture.imagers);
 }

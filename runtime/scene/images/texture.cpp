@@ -108,6 +108,26 @@ const Texture* find_texture(TextureStore& store, int32_t name) {
     return texture;
 }
 
+namespace {
+
+// Rows of t and of its slopes that run downwards.
+class TurnedRows {
+  public:
+    void turn(TextureLanes& lanes) {
+        for (int i = 0; i < jit::kMaxLanes; ++i) {
+            t_[i] = 1 - lanes.t[i];
+            dtdx_[i] = -lanes.dtdx[i];
+            dtdy_[i] = -lanes.dtdy[i];
+        }
+        lanes.t = t_, lanes.dtdx = dtdx_, lanes.dtdy = dtdy_;
+    }
+
+  private:
+    alignas(64) float t_[jit::kMaxLanes], dtdx_[jit::kMaxLanes], dtdy_[jit::kMaxLanes];
+};
+
+}  // namespace
+
 void lookup_texture(const jit::ServiceCall& call, TextureStore& store, TextureFilter best) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::texture, name).first;
@@ -126,6 +146,8 @@ void lookup_texture(const jit::ServiceCall& call, TextureStore& store, TextureFi
                        row(at("twidth")),
                        fill,
                        call.results};
+    TurnedRows turned;
+    if (store.from_top()) turned.turn(lanes);
     for (uint32_t left = call.mask; left;) {
         uint32_t same = lanes_like_first(map, left);
         same = lanes_like_first(filters, same);

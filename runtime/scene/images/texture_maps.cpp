@@ -93,7 +93,9 @@ float share_behind(const StoredImage& image, const Seen& at, vec2 extent, float 
 
 // ---- six faces ----------------------------------------------------------------------------------
 
-// Face of a direction and the position on it, as OpenEXR lays out its cubes (ImfEnvmap.h): faces +x
+// Face of a direction and the position on it, from -1 to 1, s to the right and t upwards.
+//
+// As OpenEXR lays out its cubes (ImfEnvmap.h): faces +x
 // -x +y -y +z -z from the top, the outermost texels' centres on the cube's edges.
 struct OnFace {
     int face;
@@ -111,6 +113,35 @@ OnFace face_of(vec3 d) {
     }
     float x = d.x / a.z, y = d.y / a.z;
     return d.z > 0 ? OnFace{4, -x, y} : OnFace{5, x, y};
+}
+
+// What a left-handed camera with y up sees: x to the right of z, -z to the right of x. Looking
+// along y its up is -z, along -y it is z (RI 3.2, section 7.1).
+OnFace camera_face_of(vec3 d) {
+    vec3 a = glm::abs(d);
+    if (a.x >= a.y && a.x >= a.z) {
+        float y = d.y / a.x, z = d.z / a.x;
+        return d.x > 0 ? OnFace{0, -z, y} : OnFace{1, z, y};
+    }
+    if (a.y >= a.z) {
+        float x = d.x / a.y, z = d.z / a.y;
+        return d.y > 0 ? OnFace{2, x, -z} : OnFace{3, x, z};
+    }
+    float x = d.x / a.z, y = d.y / a.z;
+    return d.z > 0 ? OnFace{4, x, y} : OnFace{5, -x, y};
+}
+
+// Where it lies in the picture of its face, from 0 to 1.
+OnFace in_picture(const StoredImage& image, vec3 d) {
+    if (image.face_extent > 0) {
+        OnFace on = camera_face_of(d);
+        return {on.face, on.s / image.face_extent * 0.5f + 0.5f,
+                on.t / image.face_extent * 0.5f + 0.5f};
+    }
+    const float size = float(image.faces[0].levels[0].width);
+    auto on_texels = [&](float x) { return ((x + 1) * 0.5f * (size - 1) + 0.5f) / size; };
+    OnFace on = face_of(d);
+    return {on.face, on_texels(on.s), on_texels(on.t)};
 }
 
 }  // namespace
@@ -179,17 +210,17 @@ void lookup_cube(const StoredImage& image, const jit::ServiceCall& call, uint32_
                       zero[jit::kMaxLanes] = {}, one[jit::kMaxLanes];
     int face[jit::kMaxLanes] = {};
     std::fill_n(one, jit::kMaxLanes, 1.0f);
-    float size = float(image.faces[0].levels[0].width);
+    const float extent = image.face_extent > 0 ? image.face_extent : 1;
     for (int i = 0; i < jit::kMaxLanes; ++i) {
         if (!(mask >> i & 1)) continue;
         vec3 d = triple(call, at("R"), i), dx = triple(call, at("dRdx"), i),
              dy = triple(call, at("dRdy"), i);
-        OnFace on = face_of(d);
+        OnFace on = in_picture(image, d);
         float large = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-        auto on_texels = [&](float x) { return ((x + 1) * 0.5f * (size - 1) + 0.5f) / size; };
         face[i] = on.face;
-        s[i] = on_texels(on.s), t[i] = on_texels(on.t);
-        float width = std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))) / (2 * large);
+        s[i] = on.s, t[i] = on.t;
+        float width =
+            std::sqrt(std::max(glm::dot(dx, dx), glm::dot(dy, dy))) / (2 * large * extent);
         ds[i] = width >= 0 ? std::min(width, 1.0f) : 0;
     }
     auto row = [&](int index) { return call.args + index * jit::kMaxLanes; };

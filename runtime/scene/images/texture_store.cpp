@@ -2,13 +2,16 @@
 #include "runtime/scene/images/texture_store.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "collada/document/findings.h"
 #include "rsl/model/renderer_services.h"
 #include "rsl/text/findings.h"
+#include "runtime/base/math.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/scene/description/cube_name.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/description/memory_file.h"
 
@@ -41,6 +44,25 @@ std::unique_ptr<StoredImage> read_image(const std::string& name, const std::stri
     }
     if (!image->error.empty()) image->pyramid = TexturePyramid(checks_image(), false);
     return image;
+}
+
+// A cube whose pictures may be of any sizes. One that cannot be read spoils it.
+std::unique_ptr<StoredImage> read_cube(const std::string& path, const CubeName& name,
+                                       const AllowedPaths& trees, bool data) {
+    auto cube = std::make_unique<StoredImage>();
+    cube->path = cube->file = path;
+    cube->face_extent = float(std::tan(radians(std::clamp(name.fov, 1.0, 179.0)) / 2));
+    for (const std::string& face : name.faces) {
+        AllowedPaths::Found file = trees.find(face);
+        std::unique_ptr<StoredImage> image = read_image(face, file.path, file.outside, data);
+        if (!image->error.empty()) image->faces.clear();
+        if (!image->error.empty()) return image;
+        cube->facts = image->facts;
+        cube->by_module = image->by_module;
+        cube->faces.push_back(std::move(image->pyramid));
+    }
+    cube->facts.type = "environment";
+    return cube;
 }
 
 // The reader of the scene says so of files its <image> elements name, the compiler of literals.
@@ -104,10 +126,13 @@ AllowedPaths::Found TextureStore::file_of(const std::string& name) const {
 
 // The mutex is held.
 const StoredImage* TextureStore::image(const std::string& name, bool data) {
-    AllowedPaths::Found file = file_of(name);
+    std::optional<CubeName> cube = parse_cube_name(name);
+    AllowedPaths::Found file = cube ? AllowedPaths::Found{name} : file_of(name);
     data = data || !decode_;
     std::unique_ptr<StoredImage>& known = images_[{file.path, data}];
-    if (!known) known = read_image(name, file.path, file.outside, data);
+    if (!known)
+        known = cube ? read_cube(name, *cube, trees_, data)
+                     : read_image(name, file.path, file.outside, data);
     return known.get();
 }
 

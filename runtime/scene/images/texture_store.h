@@ -25,7 +25,10 @@ struct StoredImage {
     std::string file;  // that was opened for it
     TexturePyramid pyramid;
     TextureFacts facts;
-    std::vector<TexturePyramid> faces;       // six, where the file is a cube's faces in a column
+    std::vector<TexturePyramid> faces;  // six, of a cube
+    // Of six pictures (CubeName): the tangent of half of the angle that each shows. 0: the faces
+    // stand in a column of one file, as OpenEXR has them.
+    float face_extent = 0;
     std::string error;                       // why it cannot be read, or ""; then it is checks
     mutable std::atomic<bool> asked{false};  // by a lookup; only kept where there is an error
     bool reported = false;
@@ -41,9 +44,10 @@ class TextureStore {
   public:
     TextureStore() = default;
     // Only files of these trees are read; any other is as one that cannot be read. With `decode`
-    // false, pixels are what the files hold, never decoded from sRGB (--color legacy).
-    explicit TextureStore(AllowedPaths trees, bool decode = true)
-        : trees_(std::move(trees)), decode_(decode) {}
+    // false, pixels are what the files hold, never decoded from sRGB (--color legacy). `from_top`:
+    // t of texture() is 0 at the top.
+    explicit TextureStore(AllowedPaths trees, bool decode = true, bool from_top = false)
+        : trees_(std::move(trees)), decode_(decode), from_top_(from_top) {}
     ~TextureStore();
     TextureStore(const TextureStore&) = delete;
 
@@ -61,6 +65,7 @@ class TextureStore {
     // not even by the reader of the scene (collada::Code::FILE_MISSING and its like).
     void report(Diagnostics& diagnostics);
 
+    bool from_top() const { return from_top_; }
     int images() const;
     // Of all texels that were read, coarser levels included.
     uint64_t decoded_bytes() const;
@@ -75,7 +80,7 @@ class TextureStore {
     AllowedPaths::Found file_of(const std::string& name) const;
 
     const AllowedPaths trees_;
-    const bool decode_ = true;
+    const bool decode_ = true, from_top_ = false;
     std::array<std::atomic<Chunk*>, kChunks> chunks_{};  // by name
     mutable std::mutex mutex_;                           // guards the maps and changes of chunks_
     std::map<int32_t, std::unique_ptr<Texture>> textures_;

@@ -157,6 +157,7 @@ bool change_all(SceneDescription& description, const std::string& pattern, const
     };
     on_pictures(description.picture);
     for (CameraDefinition& camera : description.cameras) on_pictures(camera.picture);
+    for (auto& atmosphere : description.atmospheres) on_picture(atmosphere);
     return matched;
 }
 

@@ -155,8 +155,11 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
 
 bool override_atmosphere(SceneDescription& description, const ShaderGiven& given,
                          Diagnostics& diagnostics) {
-    return override_picture(description, given, ShaderKind::Volume, &PictureShaders::atmosphere,
-                            diagnostics);
+    if (!override_picture(description, given, ShaderKind::Volume, &PictureShaders::atmosphere,
+                          diagnostics))
+        return false;
+    for (MaterialDefinition& material : description.materials) material.atmosphere = kNone;
+    return true;
 }
 
 bool override_imager(SceneDescription& description, const ShaderGiven& given,

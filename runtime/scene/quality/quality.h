@@ -13,7 +13,7 @@
 
 namespace kinora {
 
-enum class ShadowMode : uint8_t { Auto, Explicit, Off };
+enum class ShadowMode : uint8_t { Auto, Explicit, Off, All };
 enum class DisplacementMode : uint8_t { True, Bump };
 // How joints are blended: by their matrices, as COLLADA has it, or by dual quaternions.
 enum class SkinMethod : uint8_t { Linear, Dual };

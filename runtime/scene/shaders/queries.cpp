@@ -160,6 +160,11 @@ const ShaderInstance* volume_of(const Asker& asker, bool opposite) {
     return look_at(asker.shaders, from_outside != opposite ? surface.exterior : surface.interior);
 }
 
+uint32_t atmosphere_of(const Asker& asker) {
+    uint32_t own = asker.on_surface() ? asker.surface().atmosphere : kNone;
+    return own != kNone ? own : asker.shaders.atmosphere;
+}
+
 const ShaderInstance* light_of(const Asker& asker) {
     const auto& lights = asker.lights.lights;
     const size_t light = size_t(asker.light);
@@ -183,7 +188,7 @@ Asked whom(QueryKind kind, const Asker& asker) {
         case QueryKind::Displacement:
             return {surface, rsl::ShaderKind::Displacement};
         case QueryKind::Atmosphere:
-            return {look_at(asker.shaders, asker.shaders.atmosphere), rsl::ShaderKind::Volume};
+            return {look_at(asker.shaders, atmosphere_of(asker)), rsl::ShaderKind::Volume};
         case QueryKind::Incident:
             return {volume_of(asker, false), rsl::ShaderKind::Volume};
         case QueryKind::Opposite:

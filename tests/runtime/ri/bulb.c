@@ -114,7 +114,7 @@ char **argv;
     sprintf(name, "%s1.png", argv[2]);
     RiBegin(argv[1][0] ? argv[1] : RI_NULL);
     RiOption("searchpath", "shader", (RtPointer)&shaders, RI_NULL);
-    RiDisplay(name, RI_FILE, RI_RGB, RI_NULL);
+    RiDisplay(name, RI_FILE, RI_RGBA, RI_NULL);
     RiFormat((RtInt)60, (RtInt)80, 1.0);
     RiPixelSamples(2.0, 2.0);
     RiProjection(RI_PERSPECTIVE, RI_FOV, (RtPointer)&fov, RI_NULL);

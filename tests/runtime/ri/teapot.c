@@ -71,7 +71,7 @@ char **argv;
         RiBegin(argv[1]);
     else
         RiBegin();
-    RiDisplay(name, RI_FILE, RI_RGB, RI_NULL);
+    RiDisplay(name, RI_FILE, RI_RGBA, RI_NULL);
     RiFormat((RtInt)80, (RtInt)60, 1.0);
     RiPixelSamples(2.0, 2.0);
     RiProjection(RI_PERSPECTIVE, RI_FOV, (RtPointer)&fov, RI_NULL);

@@ -19,11 +19,21 @@ bool is_animated(const SceneDescription& description, ValueSlot slot) {
     return false;
 }
 
+rsl::ParamBinding layer_binding(const LayerLink& link) {
+    rsl::ParamBinding binding;
+    binding.name = link.param;
+    binding.kind = rsl::ParamBinding::Kind::Layer;
+    binding.below = link.below;
+    binding.variable = link.variable;
+    return binding;
+}
+
 rsl::ParamBinding bind_parameter(const rsl::ShaderParameter& parameter, bool shape,
                                  const ShaderUse& use, const ShaderInstance& look, uint32_t layer,
                                  const SceneDescription& description) {
     rsl::ParamBinding binding;
     binding.name = std::string(parameter.name);
+    if (const LayerLink* link = use.find_link(parameter.name)) return layer_binding(*link);
     for (const VaryingParam& varying : look.varying)
         if (varying.layer == layer && varying.name == parameter.name) {
             binding.kind = rsl::ParamBinding::Kind::Varying;
@@ -172,9 +182,11 @@ std::vector<rsl::Layer> bound_layers(const ShaderInstance& look,
         for (size_t p = 0; p < use.shader->parameters.size(); ++p)
             layer.params.push_back(
                 bind_parameter(use.shader->parameters[p], shape[p], use, look, l, description));
+        for (const LayerLink& link : use.links)
+            if (is_given_global(link.param)) layer.params.push_back(layer_binding(link));
         // Globals that the mesh or the material brings, and inputs that no parameter declares.
         for (const VaryingParam& varying : look.varying)
-            if (varying.layer == l &&
+            if (varying.layer == l && !bound(layer, varying.name) &&
                 (is_given_global(varying.name) || varying.name.starts_with('@')))
                 layer.params.push_back({varying.name, rsl::ParamBinding::Kind::Varying, {}, {}});
         for (const ParamSource& source : use.params)

@@ -117,6 +117,8 @@ std::string key_of(const ShaderInstance& look, std::span<const rsl::Layer> layer
             key.add(param.name);
             key.add(param.kind);
             key.add(param.plain);
+            key.add(param.below);
+            key.add(param.variable);
             key.add(param.constant.size());
             for (float number : param.constant) key.add(number);
             key.add(param.strings.size());

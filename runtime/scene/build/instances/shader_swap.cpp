@@ -33,9 +33,13 @@ bool same_source(const Edited& a, const ParamSource& p, const Edited& b, const P
            p.by_columns == q.by_columns && same_value(a, p.value, b, q.value);
 }
 
+bool same_link(const LayerLink& p, const LayerLink& q) {
+    return p.param == q.param && p.below == q.below && p.variable == q.variable;
+}
+
 bool same_use(const Edited& a, const ShaderUse& p, const Edited& b, const ShaderUse& q) {
     return p.shader == q.shader && p.space == q.space && p.linear_inputs == q.linear_inputs &&
-           p.untinted == q.untinted &&
+           p.untinted == q.untinted && std::ranges::equal(p.links, q.links, same_link) &&
            std::ranges::equal(p.params, q.params, [&](const auto& one, const auto& other) {
                return same_source(a, one, b, other);
            });
@@ -66,7 +70,8 @@ bool same_besides_surfaces(const Edited& a, const Edited& b) {
     return std::ranges::equal(other_uses(a.description), other_uses(b.description),
                               [&](auto* p, auto* q) { return same_use(a, *p, b, *q); }) &&
            std::ranges::equal(a.description.nodes, b.description.nodes, same_node) &&
-           a.description.materials.size() == b.description.materials.size();
+           std::ranges::equal(a.description.materials, b.description.materials, {},
+                              &MaterialDefinition::atmosphere, &MaterialDefinition::atmosphere);
 }
 
 bool reads_Cs(const rsl::Shader& shader) {
@@ -108,7 +113,8 @@ bool is_place(const rsl::Shader& shader, const ParamSource& source) {
 bool same_bindings(const std::vector<rsl::Layer>& a, const std::vector<rsl::Layer>& b) {
     auto same_param = [](const rsl::ParamBinding& p, const rsl::ParamBinding& q) {
         return p.name == q.name && p.kind == q.kind && p.constant == q.constant &&
-               p.strings == q.strings && p.plain == q.plain;
+               p.strings == q.strings && p.plain == q.plain && p.below == q.below &&
+               p.variable == q.variable;
     };
     return std::ranges::equal(a, b, [&](const rsl::Layer& p, const rsl::Layer& q) {
         return p.shader == q.shader && std::ranges::equal(p.params, q.params, same_param);

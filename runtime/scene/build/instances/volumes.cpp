@@ -33,6 +33,18 @@ void VolumeInstances::add(Surface& surface, const MaterialDefinition& material,
         surface.interior = add_volume(material.interior, name, node, use, false);
     if (!material.exterior.empty())
         surface.exterior = add_volume(material.exterior, name, node, use, true);
+    if (material.atmosphere != kNone) surface.atmosphere = add_atmosphere(material.atmosphere);
+}
+
+// One for all of its surfaces, whose shaders name their spaces.
+uint32_t VolumeInstances::add_atmosphere(uint32_t atmosphere) {
+    auto [entry, is_new] =
+        atmospheres_.try_emplace(atmosphere, uint32_t(scene_.shader_instances.size()));
+    if (!is_new) return entry->second;
+    scene_.own_atmospheres = true;
+    scene_.shader_instances.push_back(
+        volume_instance("atmosphere", description_.atmospheres[atmosphere], kNone));
+    return entry->second;
 }
 
 // An instance a node: "object" and "shader" are the space of the node whose material has the

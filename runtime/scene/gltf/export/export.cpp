@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
+#include "runtime/scene/description/interface_losses.h"
 #include "runtime/scene/gltf/curves/trs.h"
 #include "runtime/scene/gltf/document/glb.h"
 #include "runtime/scene/gltf/export/content.h"
@@ -24,6 +27,15 @@ uint32_t write_axes(const SceneDescription& description, const dmat4& axes, Node
     document.node(root)["extras"]["kinora_axes"] = {{"up", kAxes[size_t(description.up_axis)]},
                                                     {"meter", description.meter}};
     return root;
+}
+
+void report_lost_light_lists(const SceneDescription& description, LossReport& losses) {
+    auto has_list = [](const MeshUse& use) { return use.lights.has_value(); };
+    auto lists = [&](const NodeDefinition& node) {
+        return std::ranges::any_of(node.meshes, has_list);
+    };
+    if (std::ranges::any_of(description.nodes, lists))
+        losses.lost("the scene", "which lights shine on which meshes");
 }
 
 // What glTF's animations cannot say of the scene's.
@@ -76,6 +88,9 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
     curves.write_animations();
     write_scene_extras(description, takes, curves, document, losses);
     report_lost_times(description.animation, losses);
+    report_lost_light_lists(description, losses);
+    for (std::string_view what : interface_losses(description))
+        losses.lost("the scene", std::string(what));
     curves.report(losses);
     losses.hidden(document.hidden());
     if (buffer.unsound())

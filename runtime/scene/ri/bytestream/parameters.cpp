@@ -100,7 +100,7 @@ Outcome RequestReader::read_parameters() {
 Outcome RequestReader::read_parameter() {
     Token token = lexer_.take();
     ReadParameter read{token.text.data(), {}, {}, {}, token};
-    std::string_view shader = arguments_.empty() || values_.empty() ? "" : values_[0].string();
+    std::string_view shader = arguments_.empty() ? "" : shader_of(request_, values_);
     // A binary stream may name a long string again and again by three bytes.
     std::optional<Declaration> declaration;
     if (token.text.size() <= kLongestName)

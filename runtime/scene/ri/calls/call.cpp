@@ -31,6 +31,11 @@ const Request* find_request(std::string_view name) {
     return found == by_name.end() ? nullptr : &found->second;
 }
 
+std::string_view shader_of(Request request, std::span<const Values> arguments) {
+    const size_t at = request == Request::ShaderLayer ? 1 : 0;
+    return at < arguments.size() ? arguments[at].string() : "";
+}
+
 uint32_t Counts::of(StorageClass storage) const {
     switch (storage) {
         case StorageClass::Constant:

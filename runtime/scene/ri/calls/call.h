@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -103,6 +104,16 @@ struct Counts {
     uint32_t of(StorageClass storage) const;
 };
 
+// The name of the shader that a request's parameters are for; "": there is none.
+std::string_view shader_of(Request request, std::span<const Values> arguments);
+
+// How many steps a basis takes between patches, and how many numbers a colour has: what the counts
+// of values depend on. An attribute, and an option.
+struct CountState {
+    int ustep = 3, vstep = 3;
+    uint32_t color_samples = 3;
+};
+
 struct Call {
     Request request;
     std::span<const Values> arguments;  // as row(request).arguments has them
@@ -129,6 +140,8 @@ class CallSink {
         (void)request, (void)shader, (void)token;
         return nullptr;
     }
+    // What the calls so far came to; nothing: the sink does not know, or keeps what comes.
+    virtual std::optional<CountState> count_state() { return std::nullopt; }
     // RiTransformPoints; false: one of the spaces is not known.
     virtual bool transform_points(std::string_view from, std::string_view to,
                                   std::span<float> points) {

@@ -29,6 +29,7 @@ constexpr ErrorRow kErrors[] = {
     {"RI_DECLARATION", RIE_SYNTAX},
     {"RI_RANGE", RIE_RANGE},
     {"RI_COUNTS", RIE_CONSISTENCY},
+    {"RI_CONDITION", RIE_SYNTAX},
     {"RI_HANDLE", RIE_BADHANDLE},
     {"RI_SHADER_UNKNOWN", RIE_NOSHADER},
     {"RI_DATA_MISSING", RIE_MISSINGDATA},
@@ -97,13 +98,19 @@ bool lacks_array(Request request, std::span<const Values> arguments) {
 bool saves_attributes(Request request) {
     return request == Request::FrameBegin || request == Request::WorldBegin ||
            request == Request::AttributeBegin || request == Request::SolidBegin ||
-           request == Request::ObjectBegin;
+           request == Request::ObjectBegin || request == Request::ArchiveBegin;
 }
 
 bool restores_attributes(Request request) {
     return request == Request::FrameEnd || request == Request::WorldEnd ||
            request == Request::AttributeEnd || request == Request::SolidEnd ||
-           request == Request::ObjectEnd;
+           request == Request::ObjectEnd || request == Request::ArchiveEnd;
+}
+
+// A sink does calls that it kept, or leaves out calls that came here.
+bool is_done_by_sink(Request request) {
+    return request == Request::ReadArchive || request == Request::ElseIf ||
+           request == Request::Else || request == Request::IfEnd;
 }
 
 }  // namespace
@@ -220,7 +227,7 @@ void Context::send_contained(Request request, std::span<const Values> arguments,
     // A sink may read an archive during this call, which sends others.
     std::vector<Parameter> parameters = std::move(spare_parameters_);
     parameters.clear();
-    std::string_view shader = arguments.empty() ? "" : arguments[0].string();
+    std::string_view shader = shader_of(request, arguments);
     for (int i = 0; tokens && values && i < n; ++i) {
         if (!tokens[i] || !values[i]) continue;
         std::string_view name;
@@ -235,6 +242,7 @@ void Context::send_contained(Request request, std::span<const Values> arguments,
     }
     follow_blocks(request, arguments);
     sink_->call({request, arguments, parameters, counted.counts, where});
+    follow_calls_of_sink(request);
     spare_parameters_ = std::move(parameters);
     tell();
 }
@@ -248,6 +256,11 @@ void Context::follow_blocks(Request request, std::span<const Values> arguments) 
     }
     if (request == Request::ColorSamples && arguments[0].size() % 3 == 0)
         counts_.back().color_samples = std::max<uint32_t>(1, uint32_t(arguments[0].size() / 3));
+}
+
+void Context::follow_calls_of_sink(Request request) {
+    if (!is_done_by_sink(request)) return;
+    if (std::optional<CountState> now = sink_->count_state()) counts_.back() = *now;
 }
 
 RtPointer Context::new_handle() {

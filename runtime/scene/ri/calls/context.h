@@ -25,13 +25,6 @@ struct ErrorCode {
 };
 ErrorCode error_code(const FindingInfo& finding);
 
-// How many steps a basis takes between patches, and how many numbers a colour has: what the counts
-// of values depend on. An attribute, and an option.
-struct CountState {
-    int ustep = 3, vstep = 3;
-    uint32_t color_samples = 3;
-};
-
 // The numbers of values that a call's variables have (RIB.md, section 7). Nothing: the arguments
 // contradict each other; `why` says how.
 struct CountedCall {
@@ -119,6 +112,7 @@ class Context {
     void send_contained(Request request, std::span<const Values> arguments, int n, RtToken tokens[],
                         RtPointer values[], uint32_t vertices);
     void follow_blocks(Request request, std::span<const Values> arguments);
+    void follow_calls_of_sink(Request request);
 
     // Threads that have it for their current one keep this, so that none uses it after its end.
     struct Life {

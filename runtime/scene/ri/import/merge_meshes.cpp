@@ -19,6 +19,8 @@ std::string key_of(const SceneDescription& description, const std::vector<Shader
     for (const ShaderUse& use : uses) {
         key += fmt::format("{} {} {};", static_cast<const void*>(use.shader.get()), use.space,
                            use.params.size());
+        for (const LayerLink& link : use.links)
+            key += fmt::format("{}<{}.{};", link.param, link.below, link.variable);
         for (const ParamSource& source : use.params) {
             if (source.name == "Cs") continue;
             key += fmt::format("{}={}:", source.name, source.strings.size());
@@ -36,7 +38,8 @@ std::string key_of(const SceneDescription& description, const MaterialDefinition
     if (!material.lights.empty() || !material.interior.empty() || !material.exterior.empty() ||
         material.surfaces.empty())
         return "";
-    std::string key = fmt::format("{} {}|", material.name, material.hide_backfaces);
+    std::string key =
+        fmt::format("{} {} {}|", material.name, material.hide_backfaces, material.atmosphere);
     for (const auto* uses :
          {&material.transformations, &material.displacements, &material.surfaces})
         key += key_of(description, *uses);

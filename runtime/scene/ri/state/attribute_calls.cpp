@@ -112,6 +112,7 @@ void AttributeCalls::matte(const Call& call) {
 
 void AttributeCalls::attribute(const Call& call) {
     std::string_view group = call.arguments[0].string();
+    if (group != "identifier") keep_told(state_.attributes.told, call);  // files have very many
     for (const Parameter& p : call.parameters) {
         if (group == "identifier" && p.name == "name") state_.attributes.name = p.values.string();
         if (group == "light" && p.name == "shadows")

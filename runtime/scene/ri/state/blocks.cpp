@@ -69,10 +69,10 @@ class Between {
 void Interpreter::begin_block(const Call& call) {
     Block block{call.request, call.where, state_.attributes, state_.transform, nullptr, {}};
     if (call.request == Request::FrameBegin) {
-        if (state_.in_world() || frame_)
+        if (state_.in_world() || state_.frame)
             report_.add(Code::RI_NESTING, "FrameBegin", "a frame stands within another block");
         block.options = std::make_unique<Options>(state_.options);
-        frame_ = call.arguments[0].integer();
+        state_.frame = call.arguments[0].integer();
     }
     if (call.request == Request::SolidBegin && call.arguments[0].string() != "primitive")
         report_.not_done("SolidBegin", "solids are drawn as their surfaces");
@@ -89,8 +89,8 @@ void Interpreter::world_begin(const Call& call) {
     ++worlds_;
     meshes_.begin_world();
     state_.world = std::make_unique<World>(state_.options, state_.path, state_.import,
-                                           state_.camera_from_world, frame_.value_or(worlds_),
-                                           frame_.has_value());
+                                           state_.camera_from_world, state_.frame.value_or(worlds_),
+                                           state_.frame.has_value());
 }
 
 void Interpreter::world_end(const Call& call) {
@@ -109,7 +109,7 @@ void Interpreter::restore(Block& block) {
     if (block.begin == Request::WorldBegin) close_world();
     if (block.begin != Request::TransformBegin) state_.attributes = std::move(block.attributes);
     if (block.options) state_.options = std::move(*block.options);
-    if (block.begin == Request::FrameBegin) frame_.reset();
+    if (block.begin == Request::FrameBegin) state_.frame.reset();
     state_.transform = block.transform;
 }
 
@@ -146,6 +146,7 @@ void Interpreter::finish() {
         report_.add_at(Code::RI_NESTING, blocks.back().where, row(blocks.back().begin).name,
                        kNotClosed);
     recording_.clear();
+    branches_.finish();
     while (!state_.blocks.empty()) {
         Block block = std::move(state_.blocks.back());
         state_.blocks.pop_back();
@@ -213,6 +214,7 @@ bool Interpreter::record(const Call& call) {
         return true;
     }
     open.calls->add(call);
+    open.shaders.follow(call);
     return true;
 }
 
@@ -286,24 +288,6 @@ void Interpreter::procedural(const Call& call) {
     read_archive(archive);
     state_.attributes = std::move(attributes);
     state_.transform = transform;
-}
-
-// Expressions are not computed: the first branch is read.
-void Interpreter::if_begin(const Call&) {
-    report_.not_done("IfBegin", "expressions are not computed; the first branch is read");
-    branches_.push_back(true);
-}
-
-void Interpreter::branch_else(const Call& call) {
-    if (branches_.empty())
-        return report_.add(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
-    skipped_branch_ = 1;
-}
-
-void Interpreter::if_end(const Call& call) {
-    if (branches_.empty())
-        return report_.add(Code::RI_NESTING, row(call.request).name, "no IfBegin is open");
-    branches_.pop_back();
 }
 
 }  // namespace kinora::ri

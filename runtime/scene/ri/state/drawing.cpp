@@ -107,7 +107,7 @@ SubdivisionSurface Interpreter::subdivision_of(const Call& call) {
 std::optional<MeshDefinition> Interpreter::kept_mesh(const MeshKey& key, const Call& call,
                                                      const PictureScale& scale) {
     constexpr size_t kMostTriangles = 500'000;  // whatever else is there
-    const bool costly = frame_ && !is_polygon(call.request);
+    const bool costly = state_.frame && !is_polygon(call.request);
     if (costly)
         if (auto kept = meshes_.find(key)) return *kept;
     std::optional<MeshDefinition> mesh =

@@ -15,12 +15,14 @@
 #include "runtime/scene/description/curved_surface.h"
 #include "runtime/scene/description/file_picture.h"
 #include "runtime/scene/description/scene_description.h"
+#include "runtime/scene/ri/calls/declaration.h"
 
 namespace kinora::ri {
 
 // A parameter that a request gives a shader.
 struct ShaderArgument {
     std::string name;
+    Type type = Type::Float;
     std::vector<double> numbers;
     std::vector<std::string> strings;
 };
@@ -31,14 +33,23 @@ struct ShaderBinding {
     std::vector<ShaderArgument> arguments;
     dmat4 to_camera{1.0};  // from "shader" space: the transformation at the request
     Location where;
+    std::string layer;             // its name as a layer; "": it has none
+    std::vector<LayerLink> links;  // from layers below it
 };
 using Binding = std::shared_ptr<const ShaderBinding>;
+
+// One that others find by its handle.
+struct CoShader {
+    std::string handle;
+    Binding shader;
+};
 
 struct LightBinding {
     ShaderBinding shader;
     int number = 0;        // its handle's
     bool shadows = false;  // traced
     int samples = 0;       // of an area light; 0: not said
+    bool area = false;     // of geometry, not of a place
 };
 using Light = std::shared_ptr<const LightBinding>;
 
@@ -53,7 +64,15 @@ struct Projection {
     dmat4 from_camera{1.0};  // the transformation at the request
 };
 
+// What Option and Attribute were told, by "group:name"; shared by all blocks until one changes it.
+struct ToldValue {
+    std::vector<double> numbers;
+    std::vector<std::string> strings;
+};
+using ToldValues = std::map<std::string, ToldValue, std::less<>>;
+
 struct Options {
+    std::shared_ptr<const ToldValues> told;  // null: nothing
     int width = 640, height = 480;
     double pixel_aspect = 1;
     std::optional<double> frame_aspect;
@@ -78,13 +97,15 @@ struct Options {
 };
 
 struct Attributes {
+    std::shared_ptr<const ToldValues> told;  // null: nothing
     dvec3 color{1.0}, opacity{1.0};
     std::array<double, 8> corners = {0, 0, 1, 0, 0, 1, 1, 1};
     std::vector<Binding> surfaces, displacements, deformations;  // bottom first
     std::vector<Binding> atmospheres, interiors, exteriors;
-    std::vector<Light> lights;  // that are on, in the order in which they came
-    Light area_light;           // what comes is geometry of it
-    bool no_surface = false;    // Surface "null": what comes is black
+    std::vector<CoShader> co_shaders;  // that a shader can find which is bound now
+    std::vector<Light> lights;         // that are on, in the order in which they came
+    Light area_light;                  // what comes is geometry of it
+    bool no_surface = false;           // Surface "null": what comes is black
     double shading_rate = 1;
     Visibility visibility;
     bool two_sided = true;

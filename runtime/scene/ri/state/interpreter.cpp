@@ -38,6 +38,8 @@ bool is_shader_request(Request request) {
         case Request::Exterior:
         case Request::Displacement:
         case Request::Deformation:
+        case Request::Shader:
+        case Request::ShaderLayer:
             return true;
         default:
             return false;
@@ -73,15 +75,13 @@ Interpreter::Interpreter(std::string path, const ImportOptions& options, WorldCh
       shaders_(state_, report_, diagnostics),
       options_(state_, report_, shaders_),
       attributes_(state_, report_),
-      transforms_(state_, report_) {}
+      transforms_(state_, report_),
+      branches_(state_, report_) {}
 
 Interpreter::~Interpreter() = default;
 
 void Interpreter::call(const Call& call) {
-    if (skipped_branch_) {
-        if (call.request == Request::IfBegin) ++skipped_branch_;
-        if (call.request != Request::IfEnd || --skipped_branch_) return;
-    }
+    if (branches_.leave_out(call)) return;
     if (!entered_.empty()) ++replayed_;
     const Call* outer = report_.begin(&call);
     if (!record(call)) dispatch(call);
@@ -112,10 +112,6 @@ void Interpreter::dispatch(const Call& call) {
         {R::ArchiveBegin, &C::archive_begin},
         {R::ReadArchive, &C::read_archive},
         {R::Procedural, &C::procedural},
-        {R::IfBegin, &C::if_begin},
-        {R::ElseIf, &C::branch_else},
-        {R::Else, &C::branch_else},
-        {R::IfEnd, &C::if_end},
         {R::Polygon, &C::primitive},
         {R::GeneralPolygon, &C::primitive},
         {R::PointsPolygons, &C::primitive},
@@ -137,16 +133,16 @@ void Interpreter::dispatch(const Call& call) {
         {R::Blobby, &C::not_drawn},
     };
     const RequestClass kind = row(call.request).kind;
-    // Archives, which may hold worlds, are found along an option.
+    // Archives, which may hold worlds, are found along an option, and conditions look at both.
     if (drawn_.counts_alone && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
-        call.request != Request::Option)
+        call.request != Request::Option && call.request != Request::Attribute)
         return;
     if (kind == RequestClass::Option && state_.in_world())
         return report_.add(Code::RI_OPTION_IN_WORLD, row(call.request).name);
     if (kind == RequestClass::Primitive && !state_.in_world())
         return report_.add(Code::RI_OUTSIDE_WORLD, row(call.request).name);
-    kHandlers.call(*this, call) || options_.call(call) || attributes_.call(call) ||
-        shaders_.call(call) || transforms_.call(call);
+    kHandlers.call(*this, call) || branches_.call(call) || options_.call(call) ||
+        attributes_.call(call) || shaders_.call(call) || transforms_.call(call);
 }
 
 bool Interpreter::transform_points(std::string_view from, std::string_view to,
@@ -154,16 +150,47 @@ bool Interpreter::transform_points(std::string_view from, std::string_view to,
     return transforms_.transform_points(from, to, points);
 }
 
+// In an object or archive the shaders are those that are kept with it, else those of its place.
+const rsl::ShaderParameter* Interpreter::formal_of_primitive(std::string_view name) {
+    struct Row {
+        Request request;
+        const std::vector<Binding>* bound;
+    };
+    const Row rows[] = {{Request::Surface, &state_.attributes.surfaces},
+                        {Request::Displacement, &state_.attributes.displacements}};
+    const rsl::ShaderParameter* formal = nullptr;
+    for (const Row& row : rows) {
+        const std::vector<std::string>* kept = nullptr;
+        for (const Recording& open : recording_)
+            if (const auto& names = open.shaders.names(row.request)) kept = &*names;
+        for (size_t k = 0; kept && k < kept->size() && !formal; ++k)
+            formal = formal_of(shaders_.find((*kept)[k]).get(), name);
+        for (size_t k = 0; !kept && k < row.bound->size() && !formal; ++k)
+            formal = formal_of((*row.bound)[k]->shader.get(), name);
+    }
+    return formal;
+}
+
+std::optional<CountState> Interpreter::count_state() {
+    if (!recording_.empty()) return std::nullopt;
+    return CountState{
+        int(state_.attributes.u.step), int(state_.attributes.v.step),
+        state_.options.to_rgb.empty() ? 3 : uint32_t(state_.options.to_rgb.size() / 3)};
+}
+
 const Declaration* Interpreter::declared_by_shader(Request request, std::string_view shader,
                                                    std::string_view token) {
     const rsl::ShaderParameter* formal = nullptr;
     if (drawn_.counts_alone) return nullptr;
     if (is_shader_request(request)) {
-        formal = formal_of(shaders_.find(shader).get(), token);
+        const std::shared_ptr<const rsl::Shader> found = shaders_.find(shader);
+        formal = formal_of(found.get(), token);
+        if (found && !formal && handle_parameter(*found, token)) {
+            formal_ = {StorageClass::Uniform, Type::String, 0};
+            return &formal_;
+        }
     } else if (row(request).kind == RequestClass::Primitive) {
-        for (const auto* layers : {&state_.attributes.surfaces, &state_.attributes.displacements})
-            for (const Binding& binding : *layers)
-                if (!formal) formal = formal_of(binding->shader.get(), token);
+        formal = formal_of_primitive(token);
     }
     if (!formal) return nullptr;
     formal_.storage = StorageClass::Uniform;

@@ -11,7 +11,9 @@
 
 #include "runtime/scene/ri/calls/call_list.h"
 #include "runtime/scene/ri/state/attribute_calls.h"
+#include "runtime/scene/ri/state/branches.h"
 #include "runtime/scene/ri/state/option_calls.h"
+#include "runtime/scene/ri/state/recorded_shaders.h"
 #include "runtime/scene/ri/state/shader_calls.h"
 #include "runtime/scene/ri/state/transform_calls.h"
 #include "runtime/scene/ri/state/world_choice.h"
@@ -37,6 +39,7 @@ class Interpreter : public CallSink {
     void call(const Call& call) override;
     const Declaration* declared_by_shader(Request request, std::string_view shader,
                                           std::string_view token) override;
+    std::optional<CountState> count_state() override;
     bool transform_points(std::string_view from, std::string_view to,
                           std::span<float> points) override;
     // The file's end: closes what is open, with a finding.
@@ -56,9 +59,6 @@ class Interpreter : public CallSink {
     void object_instance(const Call& call);
     void archive_begin(const Call& call);
     void read_archive(const Call& call);
-    void if_begin(const Call& call);
-    void branch_else(const Call& call);
-    void if_end(const Call& call);
     bool record(const Call& call);
     bool enter(const std::string& name);
     void leave();
@@ -81,6 +81,8 @@ class Interpreter : public CallSink {
     SubdivisionSurface subdivision_of(const Call& call);
 
     void dispatch(const Call& call);
+    const rsl::ShaderParameter* formal_of_primitive(std::string_view name);
+
     StateReport report_;
     State state_;
     const WorldChoice drawn_;
@@ -90,8 +92,8 @@ class Interpreter : public CallSink {
     AttributeCalls attributes_;
     TransformCalls transforms_;
     MeshStore meshes_;
+    Branches branches_;
     int worlds_ = 0;
-    std::optional<int> frame_;
 
     // What is kept instead of done: an archive, an object, or a motion block.
     struct Recording {
@@ -102,14 +104,13 @@ class Interpreter : public CallSink {
         std::vector<float> times;
         Location where;
         std::shared_ptr<CallList> calls = std::make_shared<CallList>();
+        RecordedShaders shaders = {};
     };
     std::vector<Recording> recording_;  // at most one but for motion in others
     std::map<std::string, std::shared_ptr<CallList>, std::less<>> archives_;
     std::map<int, std::shared_ptr<CallList>> objects_;
     std::vector<std::string> entered_;  // the objects and archives that are being read
     size_t replayed_ = 0;               // calls of them
-    int skipped_branch_ = 0;            // depth of IfBegin within a branch that is not read
-    std::vector<bool> branches_;        // of open IfBegin: one was read
     Declaration formal_;                // the last answer of declared_by_shader
 };
 

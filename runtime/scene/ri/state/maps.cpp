@@ -27,27 +27,49 @@ bool names_shadow(std::string_view parameter) {
     return lower.find("shadow") != lower.npos || lower.find("shd") != lower.npos;
 }
 
+TextureWrap wrap_of(std::string_view mode) {
+    return mode == "clamp"      ? TextureWrap::Clamp
+           : mode == "periodic" ? TextureWrap::Wrap
+                                : TextureWrap::Border;
+}
+
 }  // namespace
 
 void ShaderCalls::make_map(const Call& call) {
-    maps_.insert_or_assign(std::string(call.arguments[1].string()),
-                           std::string(call.arguments[0].string()));
+    MadeMap made;
+    made.one.path = call.arguments[0].string();
+    if (call.request != Request::MakeLatLongEnvironment) {
+        made.one.wrap_s = wrap_of(call.arguments[2].string());
+        made.one.wrap_t = wrap_of(call.arguments[3].string());
+    }
+    maps_.insert_or_assign(std::string(call.arguments[1].string()), std::move(made));
 }
 
-void ShaderCalls::make_cube_map(const Call&) {
-    report_.not_done("MakeCubeFaceEnvironment", "the map is not made");
+void ShaderCalls::make_cube_map(const Call& call) {
+    MadeMap made;
+    CubeName& cube = made.six.emplace();
+    for (size_t face = 0; face < 6; ++face) cube.faces[face] = call.arguments[face].string();
+    cube.fov = double(call.arguments[7].real());
+    if (!(cube.fov >= 90 && cube.fov < 180)) {
+        report_.add(Code::RI_RANGE, "MakeCubeFaceEnvironment",
+                    "fov lies not between 90 and 180 degrees");
+        cube.fov = 90;
+    }
+    maps_.insert_or_assign(std::string(call.arguments[6].string()), std::move(made));
 }
 
 void ShaderCalls::make_shadow(const Call& call) {
     shadows_.insert(std::string(call.arguments[1].string()));
 }
 
-// The file of that name along the search path; else the picture that it was made of. "": none.
-std::string ShaderCalls::picture_file(const std::string& name) const {
+// The file of that name along the search path; else the picture that it was made of, or one with
+// another suffix. "": none.
+std::string ShaderCalls::picture_file(const std::string& name, bool any_suffix) const {
     for (const std::string& folder : folders("texture"))
         if (is_file(folder + name)) return folder + name;
     fs::path stem = name;
-    if (std::ranges::find(kMade, stem.extension().string()) == std::end(kMade)) return "";
+    if (!any_suffix && std::ranges::find(kMade, stem.extension().string()) == std::end(kMade))
+        return "";
     for (std::string_view suffix : kPictures) {
         stem.replace_extension(suffix);
         for (const std::string& folder : folders("texture"))
@@ -56,17 +78,26 @@ std::string ShaderCalls::picture_file(const std::string& name) const {
     return "";
 }
 
+// Displays are written as PNG or EXR, whatever suffix their names have.
+std::string ShaderCalls::made_picture(const std::string& picture) const {
+    std::string file = picture_file(picture, true);
+    return file.empty() ? picture : file;
+}
+
 // What a string of a shader's parameters means. Depth maps of a file that renders them itself, and
 // those that are not there, are traced.
 std::string ShaderCalls::map_name(std::string_view parameter, const std::string& name,
                                   const rsl::Shader& shader) {
     if (name.empty() || name == "raytrace") return name;
     if (auto made = maps_.find(name); made != maps_.end()) {
-        std::string picture = picture_file(made->second);
-        return picture.empty() ? made->second : picture;
+        MadeMap map = made->second;
+        if (map.six)
+            for (std::string& face : map.six->faces) face = made_picture(face);
+        map.one.path = map.six ? cube_name_string(*map.six) : made_picture(map.one.path);
+        return texture_name_string(map.one);
     }
     bool made_here = shadows_.contains(name);
-    std::string file = made_here ? "" : picture_file(name);
+    std::string file = made_here ? "" : picture_file(name, false);
     if (!file.empty()) return file;
     bool shadow = shader.kind == rsl::ShaderKind::Light && names_shadow(parameter);
     if (!made_here && !shadow) return name;

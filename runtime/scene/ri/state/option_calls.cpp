@@ -213,6 +213,7 @@ void OptionCalls::relative_detail(const Call& call) {
 
 // "a:&:b": & is what it was, @ the folders that we search anyway.
 void OptionCalls::option(const Call& call) {
+    keep_told(state_.options.told, call);
     if (call.arguments[0].string() != "searchpath") return;
     for (const Parameter& parameter : call.parameters) {
         std::vector<std::string> before = state_.options.search_paths[std::string(parameter.name)],

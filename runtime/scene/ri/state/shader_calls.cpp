@@ -3,6 +3,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/state/layer_links.h"
 #include "runtime/scene/ri/state/shader_calls.h"
 
 namespace kinora::ri {
@@ -48,14 +49,15 @@ ShaderCalls::ShaderCalls(State& state, StateReport& report, Diagnostics& diagnos
     : state_(state),
       report_(report),
       search_(compile_options(state.import), state.path.substr(0, state.path.rfind('/') + 1),
-              diagnostics) {}
+              diagnostics),
+      linker_(search_, diagnostics) {}
 
 bool ShaderCalls::call(const Call& call) {
     using R = Request;
     using C = ShaderCalls;
     static const Handlers<C> kHandlers = {
         {R::LightSource, &C::light_source},
-        {R::AreaLightSource, &C::area_light_source},
+        {R::AreaLightSource, &C::light_source},
         {R::Illuminate, &C::illuminate},
         {R::Surface, &C::surface},
         {R::Displacement, &C::surface},
@@ -64,7 +66,7 @@ bool ShaderCalls::call(const Call& call) {
         {R::Interior, &C::surface},
         {R::Exterior, &C::surface},
         {R::ShaderLayer, &C::shader_layer},
-        {R::ConnectShaderLayers, &C::co_shader},
+        {R::ConnectShaderLayers, &C::connect_layers},
         {R::Shader, &C::co_shader},
         {R::MakeTexture, &C::make_map},
         {R::MakeBump, &C::make_map},
@@ -95,9 +97,9 @@ std::shared_ptr<const rsl::Shader> ShaderCalls::find(std::string_view name) {
 }
 
 ShaderBinding ShaderCalls::binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader) {
-    ShaderBinding made{std::move(shader), {}, state_.to_camera(), call.where};
+    ShaderBinding made{std::move(shader), {}, state_.to_camera(), call.where, "", {}};
     for (const Parameter& p : call.parameters) {
-        ShaderArgument argument{std::string(p.name), {}, {}};
+        ShaderArgument argument{std::string(p.name), p.declaration.type, {}, {}};
         for (const char* text : p.values.strings())
             argument.strings.push_back(map_name(p.name, text, *made.shader));
         if (p.declaration.type == Type::Color && !state_.options.to_rgb.empty()) {
@@ -109,6 +111,8 @@ ShaderBinding ShaderCalls::binding_of(const Call& call, std::shared_ptr<const rs
         }
         made.arguments.push_back(std::move(argument));
     }
+    if (call.request == Request::ShaderLayer) made.layer = call.arguments[2].string();
+    if (call.request != Request::Shader) linker_.link(made, state_.attributes.co_shaders);
     return made;
 }
 
@@ -151,9 +155,29 @@ void ShaderCalls::shader_layer(const Call& call) {
         layers->push_back(std::move(made));
 }
 
+void ShaderCalls::connect_layers(const Call& call) {
+    std::vector<Binding>* layers = layers_of(call.arguments[0].string());
+    std::string why = "there is no such type of shaders";
+    if (layers)
+        why = connect(*layers, {call.arguments[1].string(), call.arguments[2].string()},
+                      {call.arguments[3].string(), call.arguments[4].string()});
+    if (!why.empty()) report_.add(Code::RI_RANGE, "ConnectShaderLayers", why);
+}
+
+// One of a handle that is there already replaces that.
 void ShaderCalls::co_shader(const Call& call) {
-    report_.not_done(call.request == Request::Shader ? "Shader" : "ConnectShaderLayers",
-                     "shaders are bound one by one");
+    std::string_view name = call.arguments[0].string();
+    std::string handle(call.arguments[1].string());
+    if (handle.empty() || handle.find_first_of(".,") != handle.npos)
+        return report_.add(Code::RI_RANGE, "Shader", "a handle is a text without dots and commas");
+    std::vector<CoShader>& all = state_.attributes.co_shaders;
+    std::erase_if(all, [&](const CoShader& other) { return other.handle == handle; });
+    std::shared_ptr<const rsl::Shader> shader = find(name);
+    if (shader)
+        all.push_back({std::move(handle),
+                       std::make_shared<const ShaderBinding>(binding_of(call, std::move(shader)))});
+    else if (report_.is_new(fmt::format("co-shader {}", name)))
+        report_.add(Code::RI_SHADER_UNKNOWN, "linked", name, "it is left out");
 }
 
 // Null: no light of that name was found.
@@ -170,18 +194,16 @@ Light ShaderCalls::light_of(const Call& call) {
     made->number = call.arguments[1].integer();
     made->shadows = state_.attributes.light_shadows;
     made->samples = state_.attributes.light_samples;
+    made->area = call.request == Request::AreaLightSource;
     return made;
 }
 
 void ShaderCalls::light_source(const Call& call) {
     Light made = light_of(call);
+    if (call.request == Request::AreaLightSource) state_.attributes.area_light = made;
     if (!made) return;
     lights_[made->number] = made;
     state_.attributes.lights.push_back(std::move(made));
-}
-
-void ShaderCalls::area_light_source(const Call& call) {
-    state_.attributes.area_light = light_of(call);
 }
 
 void ShaderCalls::illuminate(const Call& call) {

@@ -1,6 +1,9 @@
 // runtime/scene/ri/state/shader_calls.h: shaders, lights and maps of the current attributes.
 #pragma once
 
+#include "runtime/scene/description/cube_name.h"
+#include "runtime/scene/description/texture_name.h"
+#include "runtime/scene/ri/state/shader_linker.h"
 #include "runtime/scene/ri/state/shader_search.h"
 #include "runtime/scene/ri/state/state.h"
 
@@ -22,11 +25,11 @@ class ShaderCalls {
 
   private:
     void light_source(const Call& call);
-    void area_light_source(const Call& call);
     void illuminate(const Call& call);
     void surface(const Call& call);
     void shader_layer(const Call& call);
     void co_shader(const Call& call);
+    void connect_layers(const Call& call);
     void make_map(const Call& call);
     void make_cube_map(const Call& call);
     void make_shadow(const Call& call);
@@ -35,14 +38,21 @@ class ShaderCalls {
     Light light_of(const Call& call);
     std::string map_name(std::string_view parameter, const std::string& name,
                          const rsl::Shader& shader);
-    std::string picture_file(const std::string& name) const;
+    std::string picture_file(const std::string& name, bool any_suffix) const;
+    std::string made_picture(const std::string& picture) const;
 
     State& state_;
     StateReport& report_;
     ShaderSearch search_;
+    ShaderLinker linker_;
     std::map<int, Light> lights_;
-    std::map<std::string, std::string, std::less<>> maps_;  // that the file makes: their pictures
-    std::set<std::string, std::less<>> shadows_;            // that it makes
+    // A map that the file makes: one picture and how it is looked up, or six.
+    struct MadeMap {
+        TextureName one;
+        std::optional<CubeName> six;
+    };
+    std::map<std::string, MadeMap, std::less<>> maps_;
+    std::set<std::string, std::less<>> shadows_;  // that it makes
 };
 
 }  // namespace kinora::ri

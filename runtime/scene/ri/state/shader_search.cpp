@@ -77,12 +77,23 @@ std::string ShaderSearch::file_of(std::string_view name,
 
 ShaderSearch::Made ShaderSearch::compiled(const std::string& path, std::string_view name) {
     auto [entry, is_new] = by_path_.try_emplace(path);
-    if (is_new)
+    File& file = entry->second;
+    if (is_new) {
+        file.id = diagnostics_.files.count();  // the next that is added
         for (auto& shader : rsl::compile_file(path, options_, diagnostics_))
-            entry->second.push_back(std::move(shader));
-    for (const Made& shader : entry->second)
+            file.shaders.push_back(std::move(shader));
+    }
+    for (const Made& shader : file.shaders)
         if (shader->name == name) return shader;
-    return entry->second.empty() ? nullptr : entry->second.front();
+    return file.shaders.empty() ? nullptr : file.shaders.front();
+}
+
+rsl::ShaderSource ShaderSearch::source_of(const rsl::Shader& shader) const {
+    auto is_it = [&](const Made& made) { return made.get() == &shader; };
+    for (const auto& [path, file] : by_path_)
+        if (std::ranges::any_of(file.shaders, is_it))
+            return {diagnostics_.files.text(file.id), {file.id, {}}};
+    return {library_shader_text(shader.name), {}};
 }
 
 ShaderSearch::Made ShaderSearch::find(std::string_view name,

@@ -24,6 +24,9 @@ class ShaderSearch {
     // the first. Null: there is none, or it does not compile, which is a finding then.
     std::shared_ptr<const rsl::Shader> find(std::string_view name,
                                             const std::vector<std::string>& folders);
+    // The text that one of these was compiled from.
+    rsl::ShaderSource source_of(const rsl::Shader& shader) const;
+    const rsl::CompileOptions& options() const { return options_; }
 
   private:
     using Made = std::shared_ptr<const rsl::Shader>;
@@ -33,7 +36,11 @@ class ShaderSearch {
     rsl::CompileOptions options_;
     std::string folder_;
     Diagnostics& diagnostics_;
-    std::map<std::string, std::vector<Made>> by_path_;
+    struct File {
+        FileId id = kNoFile;
+        std::vector<Made> shaders;
+    };
+    std::map<std::string, File> by_path_;
     std::map<std::string, Made, std::less<>> by_name_;  // and folders
 };
 

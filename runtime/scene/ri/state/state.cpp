@@ -34,4 +34,16 @@ dvec3 rgb_of(const Values& values, const Options& options) {
     return made;
 }
 
+void keep_told(std::shared_ptr<const ToldValues>& told, const Call& call) {
+    auto changed = told ? std::make_shared<ToldValues>(*told) : std::make_shared<ToldValues>();
+    for (const Parameter& p : call.parameters) {
+        ToldValue& value =
+            (*changed)[fmt::format("{}:{}", call.arguments[0].string(), p.name)] = {};
+        for (float number : p.values.floats()) value.numbers.push_back(double(number));
+        for (int number : p.values.integers()) value.numbers.push_back(number);
+        for (const char* text : p.values.strings()) value.strings.emplace_back(text);
+    }
+    told = std::move(changed);
+}
+
 }  // namespace kinora::ri

@@ -66,6 +66,7 @@ struct State {
     dmat4 transform{1.0};          // to the world, or the camera outside of a world
     dmat4 camera_from_world{1.0};  // identity outside of a world
     std::map<std::string, dmat4, std::less<>> spaces;  // to the camera
+    std::optional<int> frame;                          // of the open frame block
     std::vector<Block> blocks;
     std::unique_ptr<World> world;  // null outside of a world block
 
@@ -75,6 +76,9 @@ struct State {
 
 // Numbers of a colour, as many as ColorSamples says; what is not finite is 0.
 dvec3 rgb_of(const Values& values, const Options& options);
+
+// Keeps what Option or Attribute says.
+void keep_told(std::shared_ptr<const ToldValues>& told, const Call& call);
 
 // Which function of a class does which request.
 template <class Class>

@@ -165,6 +165,7 @@ World::World(const Options& options, const std::string& path, const ImportOption
       in_film_(in_film) {
     out_.path = path;
     out_.up_axis = UpAxis::Y;
+    out_.textures_from_top = true;
     limit_files(out_, path.substr(0, path.rfind('/') + 1), import);
     out_.world_space = turned_z(camera_from_world);
     camera_.picture.number = number;
@@ -237,6 +238,7 @@ ShaderUse World::shader_use(const ShaderBinding& binding, const dmat4* object_to
     ShaderUse use;
     use.shader = binding.shader;
     use.untinted = false;
+    use.links = binding.links;
     for (const ShaderArgument& argument : binding.arguments) {
         ParamSource source;
         source.name = argument.name;
@@ -268,11 +270,25 @@ uint32_t World::light(const Light& light) {
     definition.samples = uint32_t(std::max(light->samples, 0));
     definition.where = light->shader.where;
     out_.lights.push_back(std::move(definition));
+    if (light->area) return entry->second;  // it stands in materials; this is what lists name
     // A light's space is its node's with z turned round.
     uint32_t at = node(light->shader.to_camera, fmt::format("light node {}", entry->second));
     for (int r = 0; r < 3; ++r)
         out_.values[out_.nodes[at].transforms[0].value + size_t(4 * r + 2)] *= -1;
     out_.nodes[at].lights = {entry->second};
+    return entry->second;
+}
+
+// In SceneDescription::atmospheres; kNone: there are no shaders.
+uint32_t World::atmosphere(const std::vector<Binding>& bindings) {
+    if (bindings.empty()) return kNone;
+    auto [entry, is_new] = atmospheres_.try_emplace(bindings, uint32_t(out_.atmospheres.size()));
+    if (!is_new) return entry->second;
+    std::vector<ShaderUse>& uses = out_.atmospheres.emplace_back();
+    for (const Binding& binding : bindings) {
+        uses.push_back(shader_use(*binding, nullptr));
+        uses.back().space = space_name(binding->to_camera);
+    }
     return entry->second;
 }
 
@@ -287,9 +303,9 @@ std::vector<uint32_t> World::light_list(const Attributes& attributes) {
 
 // `any_color`: the meshes that wear it have their own.
 uint32_t World::material(const Attributes& attributes, const dmat4& to_camera, bool any_color) {
-    const std::vector<Binding>* all[] = {&attributes.surfaces, &attributes.displacements,
+    const std::vector<Binding>* all[] = {&attributes.surfaces,     &attributes.displacements,
                                          &attributes.deformations, &attributes.interiors,
-                                         &attributes.exteriors};
+                                         &attributes.exteriors,    &attributes.atmospheres};
     MaterialKey key;
     for (const auto* bindings : all) {
         for (const Binding& binding : *bindings) key.add(*binding, to_camera);
@@ -330,7 +346,9 @@ uint32_t World::material(const Attributes& attributes, const dmat4& to_camera, b
         made.lights = {shader_use(attributes.area_light->shader, &to_camera)};
         made.light_shadows = attributes.area_light->shadows;
         made.light_samples = uint32_t(std::max(attributes.area_light->samples, 0));
+        made.light = light(attributes.area_light);
     }
+    made.atmosphere = atmosphere(attributes.atmospheres);
     out_.materials.push_back(std::move(made));
     return entry->second;
 }
@@ -345,12 +363,6 @@ void World::use_mesh(uint32_t mesh, uint32_t material, const Attributes& attribu
     use.lights = light_list(attributes);
     use.visibility = attributes.visibility;
     out_.nodes[node(to_camera)].meshes.push_back(std::move(use));
-}
-
-void World::add_atmosphere(const Attributes& attributes) {
-    if (out_.picture.atmosphere.empty() && !attributes.atmospheres.empty())
-        for (const Binding& binding : attributes.atmospheres)
-            out_.picture.atmosphere.push_back(shader_use(*binding, nullptr));
 }
 
 uint32_t World::push_mesh(MeshDefinition mesh, const Attributes& attributes) {
@@ -369,9 +381,11 @@ bool World::names_object_space(const Binding& binding) {
     auto names = [](std::string_view text) { return text == "object"; };
     for (const ShaderArgument& argument : binding->arguments)
         known->second |= std::ranges::any_of(argument.strings, names);
-    if (binding->shader)
-        for (const rsl::Token& token : binding->shader->ast->tokens.tokens)
-            known->second |= token.text == "\"object\"";
+    if (!binding->shader) return known->second;
+    for (const rsl::Token& token : binding->shader->ast->tokens.tokens)
+        known->second |= token.text == "\"object\"";
+    for (const rsl::LinkedPart& part : binding->shader->parts)
+        known->second |= part.text && part.text->find("\"object\"") != std::string::npos;
     return known->second;
 }
 
@@ -384,8 +398,9 @@ bool World::merges(const MeshDefinition& mesh, const Attributes& attributes,
         return false;
     const double determinant = glm::determinant(dmat3(placement.to_world));
     if (determinant == 0 || !std::isfinite(1 / determinant)) return false;
-    return std::ranges::none_of(attributes.surfaces,
-                                [&](const Binding& b) { return names_object_space(b); });
+    auto is_plain = [&](const Binding& b) { return !names_object_space(b); };
+    return std::ranges::all_of(attributes.surfaces, is_plain) &&
+           std::ranges::all_of(attributes.atmospheres, is_plain);
 }
 
 void World::merge(const MeshDefinition& mesh, const Attributes& attributes,
@@ -403,7 +418,6 @@ void World::merge(const MeshDefinition& mesh, const Attributes& attributes,
 }
 
 void World::draw(KnownMesh& known, const Attributes& attributes, const Placement& placement) {
-    add_atmosphere(attributes);
     if (known.small && merges(*known.small, attributes, placement))
         return merge(*known.small, attributes, placement);
     if (known.mesh == kNone && known.small) known.mesh = push_mesh(*known.small, attributes);

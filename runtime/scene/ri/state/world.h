@@ -68,7 +68,6 @@ class World {
     void use_mesh(uint32_t mesh, uint32_t material, const Attributes& attributes,
                   const dmat4& to_camera);
     uint32_t material(const Attributes& attributes, const dmat4& to_camera, bool any_color);
-    void add_atmosphere(const Attributes& attributes);
     ShaderUse shader_use(const ShaderBinding& binding, const dmat4* object_to_camera);
     std::vector<ShaderUse> shader_uses(const std::vector<Binding>& bindings,
                                        const dmat4& to_camera);
@@ -76,6 +75,7 @@ class World {
     uint32_t light(const Light& light);
     uint32_t node(const dmat4& to_camera, std::string id = "");
     std::string space_name(const dmat4& to_camera);
+    uint32_t atmosphere(const std::vector<Binding>& bindings);
     std::vector<uint32_t> light_list(const Attributes& attributes);
     void add_camera();
     void settle_lights();
@@ -89,6 +89,7 @@ class World {
     size_t triangles_ = 0;  // of all meshes
     std::map<std::vector<uint64_t>, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
+    std::map<std::vector<Binding>, uint32_t> atmospheres_;
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
     std::map<std::array<double, 16>, uint32_t> nodes_;
     std::map<std::array<double, 16>, std::string> spaces_;

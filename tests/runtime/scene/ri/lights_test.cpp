@@ -143,6 +143,19 @@ TEST(RiLights, CastShadowsWhereTheAttributeIsOn) {
     block.expect(13, 8, dvec3(kSlant));
 }
 
+TEST(RiLights, CastShadowsWhereTheKnobGivesThemToAll) {
+    SceneRequest request = RibPicture::request_of("x.rib");
+    request.quality.shadows = ShadowMode::All;
+    OpenScene scene(request);
+    raytrace::Film film;
+    ASSERT_EQ(scene.open(kSmall + "WorldBegin Surface \"matte\" " + kSlanted + kLeft + kRight +
+                         kBlocker + "WorldEnd"),
+              SceneError::None);
+    ASSERT_TRUE(scene.render(0, film));
+    EXPECT_NEAR(film.at(13, 8).x, 0, 1e-6);
+    EXPECT_NEAR(film.at(1, 8).x, kSlant, 1e-5);
+}
+
 // A surface that is bound meanwhile does not end it.
 TEST(RiLights, AreaLightsEndWithTheirBlock) {
     RibFolder folder;
@@ -160,6 +173,50 @@ TEST(RiLights, AreaLightsEndWithTheirBlock) {
     EXPECT_EQ(r.primitive(0).material->surfaces[0].shader->name, "constant");
     EXPECT_TRUE(r.primitive(1).material->lights.empty());
     EXPECT_EQ(r.findings(), "");
+}
+
+// A light that shines from a square at z = 0 towards what stands at z = 3, and a block for it.
+class RiAreaLights : public testing::Test {
+  protected:
+    RiAreaLights() {
+        folder_
+            .file("beam.sl",
+                  "light beam(float intensity = 1;)"
+                  "{ illuminate(P, N, PI / 2) { Cl = intensity; } }")
+            .file("sum.sl",
+                  "surface sum() { color c = 0; Oi = 1;"
+                  " illuminance(P, vector \"camera\" (0, 0, -1), PI / 2) c += Cl; Ci = c; }");
+    }
+    // Behind the eye, facing along z.
+    static std::string lamp(const std::string& inside = "") {
+        return "AttributeBegin AreaLightSource \"beam\" \"lamp\" \"intensity\" .5 " + inside +
+               "Polygon \"P\" [-.1 -.1 -1 .1 -.1 -1 .1 .1 -1 -.1 .1 -1] AttributeEnd ";
+    }
+    RibPicture lit(const std::string& inside) const {
+        return RibPicture(kSmall + folder_.search() + "WorldBegin Surface \"sum\" " + inside +
+                          "WorldEnd");
+    }
+    RibFolder folder_;
+};
+
+TEST_F(RiAreaLights, EndWithTheirBlockUnlessTheyAreSwitchedOn) {
+    expect_halves(lit(lamp() + kLeft + kRight), 0, 0);
+    expect_halves(lit(lamp() + kLeft + "Illuminate \"lamp\" 1 " + kRight), 0, .5);
+    expect_halves(
+        lit(lamp() + "Illuminate \"lamp\" 1 " + kLeft + "Illuminate \"lamp\" 0 " + kRight), .5, 0);
+    expect_halves(lit(lamp(kLeft) + kRight), .5, 0);
+}
+
+TEST_F(RiAreaLights, OfOneHandleGoTogether) {
+    const std::string two =
+        lamp("Polygon \"P\" [.3 -.1 -1 .5 -.1 -1 .5 .1 -1 .3 .1 -1] ") + "Illuminate \"lamp\" 1 ";
+    expect_halves(lit(two + kLeft + "Illuminate \"lamp\" 0 " + kRight), 1, 0);
+}
+
+TEST_F(RiAreaLights, AndOthersAreInOneList) {
+    RibPicture r = lit(lamp() + kSun + "1 \"intensity\" .25 " + kLeft +
+                       "Illuminate 1 0 Illuminate \"lamp\" 1 " + kRight);
+    expect_halves(r, .25, .5);
 }
 
 }  // namespace
