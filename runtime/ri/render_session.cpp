@@ -9,7 +9,7 @@
 #include "runtime/ri/session.h"
 #include "runtime/scene/quality/quality.h"
 #include "runtime/scene/ri/import/interpretation.h"
-#include "runtime/scene/ri/import/merge_meshes.h"
+#include "runtime/scene/ri/meshes/merge_meshes.h"
 
 namespace kinora::ri {
 namespace {

@@ -9,7 +9,7 @@
 #include "runtime/kinora/frame_list.h"
 #include "runtime/kinora/open_scene.h"
 #include "runtime/scene/ri/import/import.h"
-#include "runtime/scene/ri/import/merge_meshes.h"
+#include "runtime/scene/ri/meshes/merge_meshes.h"
 
 namespace kinora {
 

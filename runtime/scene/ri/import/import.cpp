@@ -9,7 +9,7 @@
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/bytestream/read_stream.h"
 #include "runtime/scene/ri/import/interpretation.h"
-#include "runtime/scene/ri/import/merge_meshes.h"
+#include "runtime/scene/ri/meshes/merge_meshes.h"
 
 namespace kinora {
 namespace {

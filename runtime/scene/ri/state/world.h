@@ -14,8 +14,8 @@
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/ri/calls/call.h"
 #include "runtime/scene/ri/state/graphics_state.h"
-#include "runtime/scene/ri/state/merged_meshes.h"
-#include "runtime/scene/ri/state/mesh_store.h"
+#include "runtime/scene/ri/meshes/merged_meshes.h"
+#include "runtime/scene/ri/meshes/mesh_store.h"
 #include "runtime/scene/tessellate/tessellate.h"
 
 namespace kinora::ri {

@@ -75,8 +75,10 @@ TEST_F(RiAtmosphere, OneStandsForAllOfItsPrimitives) {
                 kRightHalf + "Translate 1 0 0 " + kLeftHalf + "Atmosphere \"null\" " + kLeftHalf +
                 "WorldEnd");
     EXPECT_EQ(r.world().atmospheres.size(), 1u);
-    for (size_t k = 0; k < 3; ++k) EXPECT_EQ(r.primitive(k).material->atmosphere, 0u);
-    EXPECT_EQ(r.primitive(3).material->atmosphere, kNone);
+    ASSERT_EQ(r.primitives().size(), 2u);  // three of one look have joined
+    EXPECT_EQ(r.primitive(0).material->atmosphere, 0u);
+    EXPECT_EQ(r.primitive(0).mesh->groups[0].triangles.size(), 18u);
+    EXPECT_EQ(r.primitive(1).material->atmosphere, kNone);
     EXPECT_TRUE(r.world().picture.atmosphere.empty());
 }
 

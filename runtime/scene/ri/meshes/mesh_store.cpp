@@ -1,5 +1,5 @@
-// runtime/scene/ri/state/mesh_store.cpp: meshes by what they are of.
-#include "runtime/scene/ri/state/mesh_store.h"
+// runtime/scene/ri/meshes/mesh_store.cpp: meshes by what they are of.
+#include "runtime/scene/ri/meshes/mesh_store.h"
 
 namespace kinora::ri {
 

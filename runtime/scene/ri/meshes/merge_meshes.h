@@ -1,4 +1,4 @@
-// runtime/scene/ri/import/merge_meshes.h: fewer and larger meshes for what files say primitive by
+// runtime/scene/ri/meshes/merge_meshes.h: fewer and larger meshes for what files say primitive by
 // primitive.
 #pragma once
 

@@ -1,5 +1,5 @@
-// runtime/scene/ri/state/merged_meshes.cpp: meshes moved into one space and joined.
-#include "runtime/scene/ri/state/merged_meshes.h"
+// runtime/scene/ri/meshes/merged_meshes.cpp: meshes moved into one space and joined.
+#include "runtime/scene/ri/meshes/merged_meshes.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// runtime/scene/ri/state/merged_meshes.h: many small primitives of one look as few large meshes.
+// runtime/scene/ri/meshes/merged_meshes.h: many small primitives of one look as few large meshes.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// runtime/scene/ri/state/mesh_store.h: meshes of primitives that a file has in several pictures.
+// runtime/scene/ri/meshes/mesh_store.h: meshes of primitives that a file has in several pictures.
 #pragma once
 
 #include <cstdint>

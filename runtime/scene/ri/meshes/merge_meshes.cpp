@@ -1,5 +1,5 @@
-// runtime/scene/ri/import/merge_meshes.cpp: materials by all but their colour, meshes by material.
-#include "runtime/scene/ri/import/merge_meshes.h"
+// runtime/scene/ri/meshes/merge_meshes.cpp: materials by all but their colour, meshes by material.
+#include "runtime/scene/ri/meshes/merge_meshes.h"
 
 #include <fmt/format.h>
 
