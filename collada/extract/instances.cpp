@@ -51,14 +51,15 @@ void read_bind_material(Extraction& x, Link instance, MeshInstance& mesh, uint32
             read_material_instance(x, {instance.doc, &child}, mesh, node_number, mesh_number);
 }
 
-// <extra><technique profile="RSL"><lights><light url="#lamp"/></lights> of a mesh, or of its node.
+// <extra><technique profile="RSL"><lights><instance_light url="#lamp"/></lights> of a mesh, or of
+// its node.
 std::optional<std::vector<uint32_t>> read_light_list(Extraction& x, Link owner) {
     const Element* technique = extra_technique(*owner.element, "RSL");
     const Element* list = technique ? technique->child("lights") : nullptr;
     if (!list) return std::nullopt;
     std::vector<uint32_t> lights;
     for (const Element& child : list->children()) {
-        if (child.name != "light") continue;
+        if (child.name != "instance_light") continue;
         if (!x.budget.reserve(sizeof(uint32_t), x.where(owner))) break;
         Link target = resolve(x, {owner.doc, &child}, "url", {"light"});
         uint32_t light = target ? light_index(x, target) : kNone;

@@ -250,7 +250,7 @@ std::string ColladaExporter::vertex_inputs(const MaterialUse& use,
 std::string ColladaExporter::light_list(const std::vector<uint32_t>& lights) const {
     std::string list;
     for (uint32_t light : lights)
-        list += xml("light", attribute("url", "#" + light_ids_[light]), "");
+        list += xml("instance_light", attribute("url", "#" + light_ids_[light]), "");
     return xml("extra", "", xml("technique", attribute("profile", "RSL"), xml("lights", "", list)));
 }
 

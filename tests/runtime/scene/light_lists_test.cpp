@@ -12,7 +12,7 @@ std::string lights_extra(const std::string& urls) {
     std::string list;
     for (size_t at = 0; at < urls.size();) {
         size_t end = std::min(urls.find(' ', at), urls.size());
-        list += "<light url=\"" + urls.substr(at, end - at) + "\"/>";
+        list += "<instance_light url=\"" + urls.substr(at, end - at) + "\"/>";
         at = end + 1;
     }
     return rsl_extra("<lights>" + list + "</lights>");
@@ -73,9 +73,11 @@ TEST(LightLists, UnknownLightsAreFindings) {
 }
 
 TEST(LightLists, AreWrittenAgain) {
-    Rendering read(two_lights(lights_extra("#one"), lights_extra("")).text());
+    const std::string text = two_lights(lights_extra("#one"), lights_extra("")).text();
     Diagnostics diagnostics;
-    ColladaExport written = export_collada(*read.scene->description, "x.dae", diagnostics);
+    std::optional<SceneDescription> read = import_scene({"x.dae", text}, {}, diagnostics);
+    ASSERT_TRUE(read);
+    ColladaExport written = export_collada(*read, "y.dae", diagnostics);
     Rendering again(written.text);
     expect_sides(again.frame(), 1, 0);
 }
