@@ -72,6 +72,7 @@ class World {
     ValueSlot values(std::span<const double> numbers);
     uint32_t light(const Light& light);
     uint32_t node(const dmat4& to_camera, std::string id = "");
+    std::string numbered(const ShaderUse& use);
     std::string space_name(const dmat4& to_camera);
     std::vector<uint32_t> light_list(const Attributes& attributes);
     void add_camera();
@@ -83,6 +84,7 @@ class World {
     SceneDescription out_;
     std::map<std::vector<uint64_t>, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
+    std::map<std::string, int, std::less<>> worn_;   // shaders, how often so far
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
     std::map<std::array<double, 16>, uint32_t> nodes_;
     std::map<std::array<double, 16>, std::string> spaces_;
