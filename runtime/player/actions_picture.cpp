@@ -129,7 +129,7 @@ CommandResult action_quality(PlayerCore& core, const Arguments& a) {
     });
     core.request.words.push_back("--quality=" + *at);
     core.state.picture.quality = *at;
-    core.maker.open(core.request, core.edits, false);
+    core.open_again();
     return {};
 }
 
@@ -177,7 +177,7 @@ CommandResult action_save_picture(PlayerCore& core, const Arguments& a) {
     std::string name = without_extension(
         a.text_or(0, fmt::format("kinora-play.{:04}", std::lround(picture->frame))));
     std::string error =
-        write_image_and_folder(name + ".exr", picture->film, encoding_of(core.request), {});
+        write_image_and_folder(name + ".exr", picture->film, core.shown->encoding, {});
     if (error.empty()) error = save_shown(*picture, name + ".png");
     return written(core, name, error);
 }
@@ -189,7 +189,7 @@ CommandResult action_screenshot(PlayerCore& core, const Arguments& a) {
     if (!picture) return refused("there is no picture yet");
     return written(core, file,
                    has_extension(file, {".exr"})
-                       ? write_image_and_folder(file, picture->film, encoding_of(core.request), {})
+                       ? write_image_and_folder(file, picture->film, core.shown->encoding, {})
                        : save_shown(*picture, file));
 }
 

@@ -149,7 +149,7 @@ CommandResult action_redo(PlayerCore& core, const Arguments&) {
 CommandResult action_reload(PlayerCore& core, const Arguments&) {
     if (core.request.scene.empty()) return refused("there is no scene yet");
     core.forget_stops();
-    core.maker.open(core.request, core.edits, false);
+    core.open_again();
     return {};
 }
 

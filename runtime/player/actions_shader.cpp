@@ -280,7 +280,7 @@ CommandResult action_save(PlayerCore& core, const Arguments& a) {
     // From now on the file says it.
     std::erase_if(core.edits.texts,
                   [&](const SceneEdits::Text& text) { return text.material == document.wearer; });
-    core.maker.open(core.request, core.edits, false);
+    core.open_again();
     return {true, file, 0};
 }
 

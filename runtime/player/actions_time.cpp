@@ -18,22 +18,26 @@ constexpr double kFurthest = 1e9;  // frames
 // Frames are whole again where nothing plays, so that they are those of kinora-render.
 void stop(TimeState& time) {
     time.playing = false;
-    time.frame = std::clamp(std::round(time.frame), std::floor(range_first(time)),
+    time.frame = std::clamp(whole_frame(time, time.frame), std::floor(range_first(time)),
                             std::ceil(range_last(time)));
 }
 
+// What lies between two frames of a film is for playback alone.
 void go_to(TimeState& time, double frame) {
     time.frame = std::clamp(frame, -kFurthest, kFurthest);
+    if (time.film)
+        time.frame = std::clamp(time.playing ? frame : whole_frame(time, frame), time.first,
+                                std::max(time.last + 1 - 1e-9, time.first));
 }
 
 void step(TimeState& time, double frames) {
     bool playing = time.playing;
     stop(time);
-    double first = range_first(time), last = range_last(time);
-    double to = time.frame + frames;
+    double first = place_of(time, range_first(time)), last = place_of(time, range_last(time));
+    double to = place_of(time, time.frame) + frames;
     if (to > last) to = time.loop == LoopMode::Loop && !playing ? first : last;
     if (to < first) to = time.loop == LoopMode::Loop && !playing ? last : first;
-    go_to(time, to);
+    go_to(time, frame_at(time, to));
 }
 
 CommandResult play_towards(TimeState& time, double direction) {
@@ -137,13 +141,13 @@ CommandResult action_seek(PlayerCore& core, const Arguments& a) {
 
 CommandResult action_in(PlayerCore& core, const Arguments&) {
     TimeState& time = core.state.time;
-    double here = std::round(time.frame);
+    double here = whole_frame(time, time.frame);
     time.in = time.in == here ? std::nullopt : std::optional(here);
     return {};
 }
 CommandResult action_out(PlayerCore& core, const Arguments&) {
     TimeState& time = core.state.time;
-    double here = std::round(time.frame);
+    double here = whole_frame(time, time.frame);
     time.out = time.out == here ? std::nullopt : std::optional(here);
     return {};
 }
@@ -196,7 +200,7 @@ CommandResult action_clip(PlayerCore& core, const Arguments& a) {
     core.request.clip = wanted;
     core.state.time.in.reset();
     core.state.time.out.reset();
-    core.maker.open(core.request, core.edits, false);
+    core.open_again();
     return {};
 }
 

@@ -54,18 +54,44 @@ double range_last(const TimeState& time) {
     return std::max(time.out.value_or(time.last), range_first(time));
 }
 
-void advance_time(TimeState& time, double rate, double seconds) {
-    if (!time.playing) return;
-    double first = range_first(time), last = range_last(time);
-    time.frame += time.speed * rate * seconds;
+double place_of(const TimeState& time, double frame) {
+    if (!time.film) return frame;
+    const size_t k = time.film->at(frame);
+    constexpr double kMost = 1 - 1e-9;  // a gap is as short as any other step
+    return double(k) + std::clamp(frame - time.film->frames[k].number, 0.0, kMost);
+}
+
+double frame_at(const TimeState& time, double place) {
+    if (!time.film) return place;
+    const std::vector<FilmFrame>& frames = time.film->frames;
+    const double k = std::clamp(std::floor(place), 0.0, double(frames.size() - 1));
+    return frames[size_t(k)].number + std::clamp(place - k, 0.0, 1.0);
+}
+
+double whole_frame(const TimeState& time, double frame) {
+    return time.film ? time.film->frames[time.film->at(frame)].number : std::round(frame);
+}
+
+namespace {
+
+// The frame becomes the one at a place, if that is in the range that plays.
+void go_to_place(TimeState& time, double place) {
+    const double first = place_of(time, range_first(time)), last = place_of(time, range_last(time));
+    time.frame = place;
     confine(time, first, last, last - first + 1);
+    time.frame = frame_at(time, time.frame);
+}
+
+}  // namespace
+
+void advance_time(TimeState& time, double rate, double seconds) {
+    if (time.playing) go_to_place(time, place_of(time, time.frame) + time.speed * rate * seconds);
 }
 
 void advance_one_frame(TimeState& time) {
-    if (!time.playing) return;
-    double first = range_first(time), last = range_last(time);
-    time.frame = std::round(time.frame) + (time.speed < 0 ? -1 : 1);
-    confine(time, first, last, last - first + 1);
+    if (time.playing)
+        go_to_place(time,
+                    place_of(time, whole_frame(time, time.frame)) + (time.speed < 0 ? -1 : 1));
 }
 
 }  // namespace kinora

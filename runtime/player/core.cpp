@@ -41,6 +41,22 @@ void add_new(std::vector<FindingText>& to, const std::vector<FindingText>& from)
     }
 }
 
+// A camera moved by hand stays where it is in the file's world; where that has no place for it, the
+// file's camera is back.
+void keep_place(CameraState& camera, dvec3& follow_from, const ShownScene& before,
+                const ShownScene& now) {
+    if (!camera.free) return;
+    const dmat4 moves =
+        now.scene->description->world_space * glm::inverse(before.scene->description->world_space);
+    if (const std::optional<FreeCamera> own = moved(camera.own, moves)) {
+        camera.own = *own;
+        follow_from = dvec3(moves * dvec4(follow_from, 1));
+        return;
+    }
+    camera.free = camera.turntable = false;
+    camera.follow.clear();
+}
+
 // Where the camera looks: as far as the middle of the scene, seen along its way.
 double distance_to(const SceneInfo& info, const Picture& picture) {
     dvec3 eye = picture.origin + picture.view.eye, middle = 0.5 * (info.low + info.high);
@@ -103,7 +119,7 @@ void PlayerCore::take_news() {
     }
     if (reload && setup.watch_files && !maker.opening()) {
         forget_stops();
-        maker.open(request, edits, false);
+        open_again();
     }
     merge_findings();
 }
@@ -176,6 +192,7 @@ void PlayerCore::take_scene(std::unique_ptr<MadeScene> made) {
         return;  // the last good scene stays
     }
     const std::shared_ptr<const SceneInfo> before = info;
+    const std::shared_ptr<const ShownScene> shown_before = shown;
     bool first = !before || made->replaces_camera;
     if (made->replaces_camera) changes_before.reset();
     info = made->info;
@@ -195,33 +212,53 @@ void PlayerCore::take_scene(std::unique_ptr<MadeScene> made) {
     state.picture.quality.clear();
     for (const Quality& preset : qualities())
         if (knob_texts(preset) == knob_texts(request.quality)) state.picture.quality = preset.name;
+    if (!sized && (first || info->film)) {
+        state.picture.width = shown->settings.width;
+        state.picture.height = shown->settings.height;
+    }
+    if (first)
+        begin_scene(*made);
+    else
+        go_on_in(*before, *shown_before);
+    loop.show(std::move(made), view_order(), display_settings());
+    send_order();
+}
+
+void PlayerCore::begin_scene(MadeScene& made) {
+    state.camera = {};
+    state.camera.index = info->camera;
+    state.time = {};
+    state.time.first = info->first;
+    state.time.last = info->last;
+    state.time.film = info->film;
+    state.time.frame = info->film ? info->number() : info->first;
+    state.time.clip = request.clip;
+    film_frame = info->film_frame;
+    state.selection = {};
+    const std::optional<StartTime> begins = std::exchange(start, std::nullopt);
+    if (begins && !info->film) state.time.frame = begins->frame(info->frame_rate);
+    if (std::optional<Session> taken = std::exchange(session, std::nullopt))
+        take_session(*taken, made);
+}
+
+// The same scene, or the next frame of its film: what the user has chosen stays.
+void PlayerCore::go_on_in(const SceneInfo& before, const ShownScene& seen_before) {
+    CameraState& camera = state.camera;
+    camera.index = camera.index == before.camera
+                       ? info->camera
+                       : std::min(camera.index, uint32_t(info->cameras.size() - 1));
+    if (before.film && info->film) keep_place(camera, follow_from, seen_before, *shown);
     TimeState& time = state.time;
     time.first = info->first;
     time.last = info->last;
-    if (first) {
-        state.camera = {};
-        state.camera.index = info->camera;
-        state.time = {};
-        state.time.first = info->first;
-        state.time.last = info->last;
-        state.time.frame = info->first;
-        state.time.clip = request.clip;
-        state.selection = {};
-        if (!sized) {
-            state.picture.width = shown->settings.width;
-            state.picture.height = shown->settings.height;
-        }
-        if (std::optional<Session> taken = std::exchange(session, std::nullopt))
-            take_session(*taken, *made);
-    } else {
-        const bool as_chosen = state.camera.index == before->camera;
-        state.camera.index = as_chosen
-                                 ? info->camera
-                                 : std::min(state.camera.index, uint32_t(info->cameras.size() - 1));
-        time.frame = std::clamp(time.frame, time.first, time.last);
+    if (time.film == info->film) {
+        if (!time.film) time.frame = std::clamp(time.frame, time.first, time.last);
+        return;
     }
-    loop.show(std::move(made), view_order(), display_settings());
-    send_order();
+    time.film = info->film;
+    film_frame = info->film_frame;
+    time.frame =
+        time.film ? whole_frame(time, time.frame) : std::clamp(time.frame, time.first, time.last);
 }
 
 // The scene stays; its shaders are others.
@@ -235,20 +272,24 @@ void PlayerCore::take_swap(MadeScene& made) {
     send_order();
 }
 
-void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with) {
+void PlayerCore::open(const SceneRequest& scene, std::optional<Session> with,
+                      std::optional<StartTime> from) {
     if (!info) load = LoadState::Loading;
     if (info && !changes_before) changes_before = {edits, undo, redo};
     edits = with ? with->edits : SceneEdits{};
     for (SceneEdits::Text& text : edits.texts) text.version = ++document.version;
     undo.clear();
     redo.clear();
+    start = from;
+    if (with && !from) from = StartTime{with->frame};
     session = std::move(with);
     forget_stops();
-    maker.open(scene, edits, true);
+    maker.open(scene, edits, true, from);
 }
 
 void PlayerCore::keep_scene() {
     session.reset();
+    start.reset();
     if (!changes_before) return;
     edits = std::move(changes_before->edits);
     undo = std::move(changes_before->undo);
@@ -359,7 +400,8 @@ void PlayerCore::merge_findings() {
 
 ViewOrder PlayerCore::view_order() const {
     ViewOrder order;
-    order.frame = state.time.frame;
+    // A film's frame is ordered when it is there; until then the picture before it stays.
+    order.frame = info && info->film ? info->number() : state.time.frame;
     if (state.camera.free) {
         order.camera = state.camera.own;
         if (!state.camera.follow.empty()) order.follow = {state.camera.follow, follow_from};
@@ -385,7 +427,7 @@ DisplaySettings PlayerCore::display_settings() const {
     display.tone = state.picture.tone;
     display.aov = state.picture.aov;
     display.false_color = state.picture.false_color;
-    display.encoding = encoding_of(request);
+    if (shown) display.encoding = shown->encoding;
     display.kept = kept;
     display.wipe_at = state.picture.wipe_at;
     if (state.picture.rays) display.rays = state.selection.story;
@@ -394,10 +436,27 @@ DisplaySettings PlayerCore::display_settings() const {
 
 void PlayerCore::send_order() {
     if (!info) return;
+    follow_film();
     loop.order(view_order(), display_settings());
     order_thumbnails();
     const bool open = std::ranges::find(state.panels, "explained") != state.panels.end();
     if (open && std::exchange(explained_serial, info->serial) != info->serial) explain_scene();
+}
+
+// The time may be in another frame of the film than the one that was ordered last.
+void PlayerCore::follow_film() {
+    if (!info->film || maker.opening()) return;
+    const size_t wanted = info->film->at(state.time.frame);
+    if (std::exchange(film_frame, wanted) != wanted)
+        maker.show_frame(request, edits, state.time.frame);
+}
+
+bool PlayerCore::shows_frame() const {
+    return !info || !info->film || maker.idle();
+}
+
+void PlayerCore::await_frame() {
+    if (!setup.real_time) wait_for([this] { return shows_frame(); }, kAnswerSeconds);
 }
 
 // The rows come with take_news().

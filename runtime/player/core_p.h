@@ -36,6 +36,8 @@ struct PlayerCore {
     std::vector<FindingText> scene_findings, frame_findings, all_findings;
     std::shared_ptr<const Picture> kept;
     std::optional<Session> session;  // to be taken up when its scene is there
+    std::optional<StartTime> start;  // likewise
+    size_t film_frame = 0;           // of the film shown, that was ordered last
     dvec3 follow_from{0.0};
     SceneError error = SceneError::None;  // why the last scene could not be made
     std::ofstream record;
@@ -102,14 +104,23 @@ struct PlayerCore {
     void explain_scene();                      // to PlayerState::explained, when the answer comes
     void keep(std::shared_ptr<const Picture> picture);  // to compare with; null: none
     void rebuild() { maker.edit(edits); }
-    // Another scene from now on, as soon as it is read; with what a session says of it.
-    void open(const SceneRequest& scene, std::optional<Session> with);
+    // Another scene from now on, as soon as it is read; with what a session says of it, or from
+    // its beginning or a time on.
+    void open(const SceneRequest& scene, std::optional<Session> with,
+              std::optional<StartTime> start = std::nullopt);
+    // The same scene, whose file or options have changed.
+    void open_again() { maker.open(request, edits, false, StartTime{state.time.frame}); }
+    bool shows_frame() const;  // of the film that the time is in, unless it cannot be made
+    void await_frame();        // where no clock runs
     bool cancel_open();  // the scene that is being read is not wanted any more; false: none is
     void keep_scene();   // another one could not be opened
     CommandResult act(size_t row, const std::vector<std::string>& arguments);
     void note_stop();  // the picture shown, as a stop of the slider of qualities
 
   private:
+    void follow_film();
+    void begin_scene(MadeScene& made);
+    void go_on_in(const SceneInfo& before, const ShownScene& seen_before);
     void take_text(const MadeScene& made);
     void order_thumbnails();
     void take_scene(std::unique_ptr<MadeScene> made);

@@ -65,11 +65,12 @@ CommandResult PlayerCore::act(size_t row, const std::vector<std::string>& argume
     return kActions[row](*this, Arguments(arguments));
 }
 
-void Player::open(const SceneRequest& request, std::optional<Session> session) {
+void Player::open(const SceneRequest& request, std::optional<Session> session,
+                  std::optional<StartTime> start) {
     const bool first = core_->load == LoadState::Nothing;
     if (first) set_thread_count(request.threads > 0 ? request.threads : thread_count());
     core_->request = request;
-    if (!request.scene.empty()) core_->open(request, std::move(session));
+    if (!request.scene.empty()) core_->open(request, std::move(session), start);
     // The threads are there from here on; the file is being read meanwhile.
     if (first) parallel_for(0, 2, 1, [](size_t, size_t) {});
 }
@@ -95,6 +96,7 @@ CommandResult Player::run(std::string_view word, const std::vector<std::string>&
     std::string turned;
     if (core_->record.is_open() && before.playing && camera.turntable && camera.free)
         turned = camera_text(camera.own);
+    core_->await_frame();
     CommandResult result = core_->act(size_t(command - commands().data()), arguments);
     core_->send_order();
     if (result.done) core_->record_line(*command, arguments, before, turned);
@@ -120,16 +122,19 @@ void Player::advance(double seconds) {
     TimeState& time = core_->state.time;
     double before = time.frame;
     core_->since_recorded += seconds;
-    bool behind = time.every_frame && core_->setup.real_time && !core_->loop.caught_up();
+    bool behind = time.every_frame && core_->setup.real_time &&
+                  !(core_->loop.caught_up() && core_->shows_frame());
     if (time.playing && !behind) {
         if (time.every_frame)
             advance_one_frame(time);
         else
             advance_time(time, core_->info->frame_rate, seconds);
         CameraState& camera = core_->state.camera;
-        double length = range_last(time) - range_first(time) + 1;
+        const double length =
+            place_of(time, range_last(time)) - place_of(time, range_first(time)) + 1;
+        const double gone = place_of(time, time.frame) - place_of(time, before);
         if (camera.turntable && camera.free)
-            orbit(camera.own, up_of(core_->info->up_axis), 360 * (time.frame - before) / length, 0);
+            orbit(camera.own, up_of(core_->info->up_axis), 360 * gone / length, 0);
     }
     core_->send_order();
 }

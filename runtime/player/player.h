@@ -18,6 +18,7 @@
 #include "runtime/player/picture/picture.h"
 #include "runtime/player/scene_info.h"
 #include "runtime/player/session/session.h"
+#include "runtime/player/session/start_time.h"
 #include "runtime/player/shader_document.h"
 #include "runtime/player/state.h"
 
@@ -64,7 +65,9 @@ class Player {
 
     // Begins to read a scene; without a name, none: its options are those of the first one that
     // the command `open` names. The one shown stays until it is there. Options as kinora-render's.
-    void open(const SceneRequest& request, std::optional<Session> session = std::nullopt);
+    // `start`: when it begins, whatever the session says.
+    void open(const SceneRequest& request, std::optional<Session> session = std::nullopt,
+              std::optional<StartTime> start = std::nullopt);
     LoadState load_state() const;
     Opening opening() const;  // another scene that is being read
 

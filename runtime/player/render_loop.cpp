@@ -149,7 +149,8 @@ void RenderLoop::show(std::unique_ptr<MadeScene> made, const ViewOrder& order,
         swapped_.reset();
         take_order(order, display);
         want_picture();
-        stop_ = 1;
+        // A film whose frames come faster than their pictures must have some.
+        if (!made->steps || !in_work_ || in_work_->pass != Pass::Quick) stop_ = 1;
     }
     wanted_.notify_one();
 }

@@ -11,6 +11,7 @@
 #include "runtime/player/files/shader_source.h"
 #include "runtime/player/shader_document.h"
 #include "runtime/scene/description/scene_description.h"
+#include "runtime/scene/ri/import/film.h"
 
 namespace kinora {
 
@@ -57,6 +58,10 @@ struct SceneInfo {
     std::vector<MaterialInfo> materials;
     std::vector<std::string> aovs;  // that `aov` takes, "" is the picture
     std::vector<double> keys;       // frames that have keys, sorted
+    // The film whose frame this scene is; null: it is no film's. A reload makes another one.
+    std::shared_ptr<const FilmFrames> film;
+    size_t film_frame = 0;  // of FilmFrames::frames
+    double number() const { return film->frames[film_frame].number; }
 };
 
 }  // namespace kinora

@@ -13,6 +13,7 @@
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/texture.h"
 #include "runtime/scene/images/texture_store.h"
+#include "runtime/scene/ri/import/import.h"
 
 namespace kinora {
 
@@ -40,10 +41,28 @@ SceneMaker::~SceneMaker() {
     thread_.join();
 }
 
-void SceneMaker::open(const SceneRequest& request, SceneEdits edits, bool replaces_camera) {
+void SceneMaker::open(const SceneRequest& request, SceneEdits edits, bool replaces_camera,
+                      std::optional<StartTime> start) {
     {
         std::lock_guard lock(mutex_);
-        order({.open = request, .edits = std::move(edits), .replaces_camera = replaces_camera});
+        order({.open = request,
+               .edits = std::move(edits),
+               .replaces_camera = replaces_camera,
+               .start = start,
+               .counts = true});
+    }
+    wanted_.notify_one();
+}
+
+void SceneMaker::show_frame(const SceneRequest& request, SceneEdits edits, double frame) {
+    {
+        std::lock_guard lock(mutex_);
+        Order step{.open = request, .edits = std::move(edits), .start = StartTime{frame}};
+        if (order_ && order_->open) {  // a reload, which is still to be done
+            step.open = std::move(order_->open);
+            step.counts = order_->counts;
+        }
+        order(std::move(step));
     }
     wanted_.notify_one();
 }
@@ -165,6 +184,7 @@ std::unique_ptr<MadeScene> SceneMaker::make(const Order& order) {
     made->edits = order.edits;
     made->replaces_camera = order.replaces_camera;
     made->finer = order.finer;
+    made->steps = order.open && !order.counts;
     std::optional<AsRead> before;
     if (order.open && order.replaces_camera && read_.scene) before = std::exchange(read_, AsRead{});
     make(order, *made);
@@ -184,10 +204,11 @@ std::unique_ptr<MadeScene> SceneMaker::make(const Order& order) {
 
 void SceneMaker::make(const Order& order, MadeScene& made) {
     std::optional<SerialScope> serial;
-    if (serial_ > 0) serial.emplace();  // the frames of the scene shown go first
+    // The frames of the scene shown go first; a film's next frame is what is waited for.
+    if (serial_ > 0 && !made.steps) serial.emplace();
     try {
         if (order.open) goes_on(Opening::Step::Reads);
-        const bool done = order.open ? !read(*order.open, made) : !order.finer && swap(order, made);
+        const bool done = order.open ? !read(order, made) : !order.finer && swap(order, made);
         const auto step = order.finer ? Opening::Step::Dices : Opening::Step::Builds;
         if (!done && goes_on(step)) build(order, made);
     } catch (const std::bad_alloc&) {
@@ -205,8 +226,25 @@ void SceneMaker::make(const Order& order, MadeScene& made) {
     made.findings.insert(made.findings.end(), found.begin(), found.end());
 }
 
-bool SceneMaker::read(const SceneRequest& request, MadeScene& made) {
+// The request with the world block of the frame that is wanted.
+SceneRequest SceneMaker::choose_frame(const Order& order) {
+    SceneRequest request = *order.open;
+    const bool rib = is_rib(request.scene);
+    if (!rib) read_.film.reset();
+    if (order.counts && rib)
+        if (FilmFrames film = film_of(request.scene); !film.frames.empty())
+            read_.film = std::make_shared<const FilmFrames>(std::move(film));
+    if (!read_.film) return request;
+    const double rate = request.fps.value_or(FrameRate{}).value();
+    const size_t frame =
+        order.start ? read_.film->at(order.start->frame(rate)) : read_.film->beginning();
+    request.world = read_.film->frames[frame].world;
+    return request;
+}
+
+bool SceneMaker::read(const Order& order, MadeScene& made) {
     Diagnostics& diagnostics = *made.diagnostics;
+    const SceneRequest request = choose_frame(order);
     judge_by(request, diagnostics);
     made.error = SceneError::Unreadable;
     std::optional<ImportedScene> imported = import_requested(request, diagnostics);
@@ -369,12 +407,27 @@ void SceneMaker::build(const Order& order, MadeScene& made) {
             if (broken.material == material.id && !material.source)
                 material.source = std::make_shared<const ShaderSourceText>(broken.source);
     info->serial = serial_ + 1;
+    add_film(*info);
     made.info = std::move(info);
     made.build_ms = watch.ms();
     if (!dicing_.coarse) dicing_.is_fast = scene.dice.triangles && scene.dice.ms < kFastDiceMs;
-    made.shown = std::make_shared<ShownScene>(ShownScene{
-        read_.request, read_.scene->rate, std::move(built.scene), settings, diagnostics.files});
+    made.shown = std::make_shared<ShownScene>(
+        ShownScene{read_.request, read_.scene->rate, std::move(built.scene), settings,
+                   diagnostics.files, encoding_of(read_.request)});
     if (order.finer) pose(made);
+}
+
+// The time line has its frames.
+void SceneMaker::add_film(SceneInfo& info) const {
+    if (!read_.film) return;
+    const std::vector<FilmFrame>& frames = read_.film->frames;
+    info.film = read_.film;
+    const auto shown = std::ranges::find(frames, read_.request.world, &FilmFrame::world);
+    if (shown != frames.end()) info.film_frame = size_t(shown - frames.begin());
+    info.first = frames.front().number;
+    info.last = frames.back().number;
+    if (frames.size() > 1)
+        for (const FilmFrame& frame : frames) info.keys.push_back(frame.number);
 }
 
 // So that no frame waits for the trees of many triangles.

@@ -38,8 +38,12 @@ class SceneMaker {
     ~SceneMaker();  // waits for the scene under way
     SceneMaker(const SceneMaker&) = delete;
 
-    // Reads the file, then builds. Of several orders the last one counts.
-    void open(const SceneRequest& request, SceneEdits edits, bool replaces_camera);
+    // Reads the file, then builds. Of several orders the last one counts. `start`: which of a
+    // film's frames; nothing: the one that it begins with.
+    void open(const SceneRequest& request, SceneEdits edits, bool replaces_camera,
+              std::optional<StartTime> start = std::nullopt);
+    // Another frame of the film that was opened last: its file is read again up to there.
+    void show_frame(const SceneRequest& request, SceneEdits edits, double frame);
     // Puts these edits on the scene read last: where they change surface shaders and parameters
     // alone, the scene made last gets other kernels; else it is built anew.
     void edit(SceneEdits edits);
@@ -60,13 +64,17 @@ class SceneMaker {
         SceneEdits edits{};
         bool replaces_camera = false;
         bool finer = false;  // the scene made last, as the request has it: gives way to any other
+        std::optional<StartTime> start{};
+        bool counts = false;  // the frames of a film: its file may be another one
     };
     void run();
     void order(Order order);
     std::unique_ptr<MadeScene> make(const Order& order);
     void make(const Order& order, MadeScene& made);
     bool goes_on(Opening::Step step);  // false: cancelled
-    bool read(const SceneRequest& request, MadeScene& made);
+    bool read(const Order& order, MadeScene& made);
+    SceneRequest choose_frame(const Order& order);
+    void add_film(SceneInfo& info) const;
     bool swap(const Order& order, MadeScene& made);
     void build(const Order& order, MadeScene& made);
     void pose(MadeScene& made) const;
@@ -94,6 +102,7 @@ class SceneMaker {
     struct AsRead {
         std::optional<ImportedScene> scene;
         SceneRequest request;
+        std::shared_ptr<const FilmFrames> film;  // null: a scene of one picture
         std::vector<std::string> files;
         SourceFiles texts;
         std::vector<BrokenShader> broken;

@@ -10,6 +10,7 @@
 #include "runtime/player/scene_info.h"
 #include "runtime/player/session/places.h"
 #include "runtime/player/session/scene_edits.h"
+#include "runtime/player/session/start_time.h"
 #include "runtime/player/shader_document.h"
 
 namespace kinora {
@@ -20,8 +21,9 @@ struct ShownScene {
     SceneRequest request;
     FrameRate rate;
     std::shared_ptr<const Scene> scene;
-    FrameSettings settings;  // as kinora-render has them for the request
-    SourceFiles texts;       // that locations in its shaders point into
+    FrameSettings settings;                        // as kinora-render has them for the request
+    SourceFiles texts;                             // that locations in its shaders point into
+    ColorEncoding encoding = ColorEncoding::Srgb;  // encoding_of(request), which reads the file
 };
 
 // What has become of an order.
@@ -40,6 +42,7 @@ struct MadeScene {
     SceneError error = SceneError::None;       // why it could not be made
     bool replaces_camera = true;               // another scene, not the same one changed
     bool finer = false;                        // the one shown, with what is displaced diced finer
+    bool steps = false;                        // another frame of the film that is shown
 };
 
 FindingText finding_text(const Finding& finding, const SourceFiles& files);

@@ -11,6 +11,7 @@
 #include "runtime/base/math.h"
 #include "runtime/player/board/trade_board.h"
 #include "runtime/player/session/free_camera.h"
+#include "runtime/scene/ri/import/film.h"
 
 namespace kinora {
 
@@ -31,7 +32,8 @@ struct CameraState {
 struct TimeState {
     double frame = 0;  // whole unless it plays
     double first = 0, last = 0;
-    std::optional<double> in, out;  // of what plays, frames
+    std::shared_ptr<const FilmFrames> film;  // whose frames alone there are; null: all numbers are
+    std::optional<double> in, out;           // of what plays, frames
     bool playing = false;
     double speed = 1;  // J K L: -4 .. 4 times, 1 forwards
     LoopMode loop = LoopMode::Loop;

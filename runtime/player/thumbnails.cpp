@@ -175,7 +175,7 @@ bool Thumbnails::make(const ThumbnailOrder& order, const std::string& shader, Th
     to.shader = shader;
     to.width = film.width;
     to.height = film.height;
-    to.rgba = to_8_bit(film, encoding_of(shown.request)).rgba;
+    to.rgba = to_8_bit(film, shown.encoding).rgba;
     return true;
 }
 

@@ -33,7 +33,9 @@ std::optional<raytrace::Camera> view_of(const Scene& scene, Pose& pose, const Vi
     return pose.view;
 }
 
+// A picture of a RIB file is made when its shutter opens, whatever its frame's number.
 double time_of(const ShownScene& shown, const ViewOrder& order) {
+    if (shown.scene->description->file_picture) return shown.scene->options.start_time;
     return seconds_of(shown.rate, order.frame);
 }
 

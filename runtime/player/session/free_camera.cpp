@@ -48,6 +48,25 @@ dmat3 turned_by(const dmat3& axes, dvec3 up, double right_angle, double up_angle
 
 }  // namespace
 
+std::optional<FreeCamera> moved(const FreeCamera& camera, const dmat4& moves) {
+    const dmat3 turns(moves);
+    const double size = std::cbrt(glm::determinant(turns));
+    if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+    constexpr double kRounding = 1e-5;
+    const dmat3 squares = glm::transpose(turns) * turns;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!(std::abs(squares[c][r] / (size * size) - (c == r)) < kRounding))
+                return std::nullopt;
+    FreeCamera made = camera;
+    made.pivot = dvec3(moves * dvec4(camera.pivot, 1));
+    made.axes = squared(turns * camera.axes);
+    made.distance = std::clamp(camera.distance * size, kLeastDistance, kMostDistance);
+    made.znear *= size;
+    made.zfar *= size;
+    return made;
+}
+
 dmat4 FreeCamera::world_from_camera() const {
     return {dvec4(axes[0], 0), dvec4(axes[1], 0), dvec4(axes[2], 0), dvec4(eye(), 1)};
 }

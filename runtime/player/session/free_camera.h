@@ -41,6 +41,9 @@ void fly(FreeCamera& camera, dvec3 step);
 void look(FreeCamera& camera, dvec3 up, double right_degrees, double up_degrees);
 // The box fits the picture of that width / height.
 void frame_box(FreeCamera& camera, dvec3 low, dvec3 high, double aspect);
+// Where it is once the world around it has been moved, turned and scaled so. Nothing where shapes
+// would be others: sheared, mirrored or flat.
+std::optional<FreeCamera> moved(const FreeCamera& camera, const dmat4& moves);
 // From the front, the right or above (1, 3, 7) or their opposites.
 enum class AxisView : uint8_t { Front, Back, Right, Left, Top, Bottom };
 void look_along(FreeCamera& camera, AxisView view, UpAxis up_axis);

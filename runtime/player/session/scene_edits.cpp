@@ -9,7 +9,9 @@
 #include "rsl/link.h"
 #include "runtime/player/files/shader_source.h"
 #include "runtime/player/session/shader_places.h"
+#include "runtime/player/session/world_edits.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/given_globals.h"
 #include "runtime/scene/load/override_scene.h"
 #include "runtime/scene/load/override_shader.h"
 
@@ -74,8 +76,9 @@ bool has_parameter(const rsl::Shader& shader, const std::string& name) {
 
 // With the sources of parameters that the new text still has.
 void put_on(ShaderUse& use, std::shared_ptr<const rsl::Shader> shader) {
-    std::erase_if(use.params,
-                  [&](const ParamSource& p) { return !has_parameter(*shader, p.name); });
+    std::erase_if(use.params, [&](const ParamSource& p) {
+        return !has_parameter(*shader, p.name) && !is_given_global(p.name);
+    });
     use.shader = std::move(shader);
 }
 
@@ -135,8 +138,11 @@ const rsl::Shader* shown_surface(const MaterialDefinition& material) {
     return material.surfaces.empty() ? nullptr : material.surfaces.back().shader.get();
 }
 
-bool apply_edits(ImportedScene& imported, const SceneEdits& edits, const SceneRequest& request,
+bool apply_edits(ImportedScene& imported, const SceneEdits& all, const SceneRequest& request,
                  Diagnostics& diagnostics, EditedShaders* known) {
+    // Edits may be of another picture of the film.
+    const bool in_film = imported.description.file_picture.has_value();
+    const SceneEdits edits = in_film ? edits_of_world(all, imported.description) : all;
     bool good = true;
     EditedShaders now;
     for (const auto& [material, shader] : edits.shaders)

@@ -42,6 +42,12 @@ int one_screenshot(Player& player, const std::string& file) {
     return kExitUnwritable;
 }
 
+// A film may have gaps.
+bool has_frame(const Player& player, int64_t frame) {
+    const std::shared_ptr<const FilmFrames>& film = player.state().time.film;
+    return !film || std::ranges::count(film->frames, frame, &FilmFrame::number) > 0;
+}
+
 int take_screenshots(const PlayOptions& options, Player& player) {
     OutputName name(options.screenshot);
     const RenderOptions& scene = options.scene;
@@ -54,7 +60,13 @@ int take_screenshots(const PlayOptions& options, Player& player) {
         say("kinora-play: error: several frames need a frame token in --screenshot, as f.####.png");
         return kExitUsage;
     }
+    const auto is_there = [&](int64_t frame) { return has_frame(player, frame); };
+    if (std::ranges::none_of(*scene.frames, is_there)) {
+        say("kinora-play: error: the film has none of the frames of --frames");
+        return kExitUsage;
+    }
     for (int64_t frame : *scene.frames) {
+        if (!is_there(frame)) continue;
         player.run("seek", {fmt::format("{}", frame)});
         player.wait_idle(kPatience);
         if (int code = one_screenshot(player, name.file(frame))) return code;

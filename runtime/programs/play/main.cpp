@@ -21,6 +21,13 @@ std::optional<OpenedSession> read_session_file(const std::string& file, std::str
     return OpenedSession{std::move(*options), std::move(session)};
 }
 
+std::optional<StartTime> start_of(const RenderOptions& options) {
+    if (options.time) return StartTime{*options.time, true};
+    if (options.frames && !options.frames->empty())
+        return StartTime{double(options.frames->front())};
+    return std::nullopt;
+}
+
 int play_scene(const PlayOptions& options) {
     PlayerSetup setup;
     setup.real_time = !options.headless || options.real_time;
@@ -34,7 +41,7 @@ int play_scene(const PlayOptions& options) {
                      options.record.c_str());
         return kExitUnwritable;
     }
-    player.open(options.scene, options.scene.session);
+    player.open(options.scene, options.scene.session, start_of(options.scene));
     if (options.headless) return run_headless(options, player);
     std::string error;
     const play::WindowOptions window{options.scene.width > 0 || options.scene.scale != 1, false,

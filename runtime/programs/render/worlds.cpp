@@ -8,12 +8,18 @@
 #include "runtime/base/stats.h"
 #include "runtime/kinora/frame_list.h"
 #include "runtime/kinora/open_scene.h"
+#include "runtime/scene/ri/import/film.h"
 #include "runtime/scene/ri/import/import.h"
 #include "runtime/scene/ri/meshes/merge_meshes.h"
 
 namespace kinora {
 
 std::optional<std::vector<int>> worlds_to_render(const RenderOptions& options) {
+    if (options.session && !options.frames) {
+        const FilmFrames film = film_of(options.scene);
+        if (film.frames.empty()) return std::vector<int>{};
+        return std::vector<int>{film.frames[film.at(options.session->frame)].world};
+    }
     const std::vector<int> numbers = worlds_of(options.scene);
     const bool all = !options.output.empty() && OutputName(options.output).has_token();
     std::vector<int> worlds;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/given_globals.h"
 #include "runtime/scene/load/override_scene.h"
 #include "runtime/scene/profile_rsl/effect_shaders.h"
 
@@ -61,7 +62,8 @@ ShaderUse with_sources(const SharedShader& shader, std::span<const ShaderUse> ol
     ShaderUse use{shader, {}};
     for (const ShaderUse& layer : old)
         for (const ParamSource& source : layer.params)
-            if (find_parameter(*shader, source.name)) use.params.push_back(source);
+            if (find_parameter(*shader, source.name) || is_given_global(source.name))
+                use.params.push_back(source);
     return use;
 }
 

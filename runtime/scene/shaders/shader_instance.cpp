@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "runtime/base/check.h"
+#include "runtime/scene/description/given_globals.h"
 #include "runtime/scene/pose.h"
 #include "runtime/scene/shaders/scene_host.h"
 #include "runtime/scene/spaces.h"

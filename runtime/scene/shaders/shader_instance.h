@@ -56,11 +56,6 @@ struct FrameInput {
 
 struct ShaderInstance;
 
-// Cs or Os, which a mesh or a material may give like a parameter; else they are 1.
-inline bool is_given_global(std::string_view name) {
-    return name == "Cs" || name == "Os";
-}
-
 // A kernel whose frame-rate inputs come from a scene.
 struct SceneKernel : BoundKernel {
     std::vector<FrameInput> inputs;  // of the frame kernel

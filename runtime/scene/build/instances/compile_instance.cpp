@@ -8,6 +8,7 @@
 
 #include "runtime/base/check.h"
 #include "runtime/scene/build/instances/compiled_layers.h"
+#include "runtime/scene/description/given_globals.h"
 
 namespace kinora {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "runtime/scene/description/given_globals.h"
 #include "runtime/scene/description/picture_rules.h"
 
 namespace kinora {

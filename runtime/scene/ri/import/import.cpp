@@ -53,14 +53,19 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
     return sound;
 }
 
-std::vector<int> worlds_of(const SceneSource& source) {
-    std::vector<int> numbers;
+void for_each_world(const SceneSource& source,
+                    const std::function<void(const FilePicture& picture)>& take) {
     Diagnostics unheard;  // they come when the world itself is read
     auto count = [&](SceneDescription&& world) {
-        numbers.push_back(world.file_picture->number);
+        take(*world.file_picture);
         return true;
     };
     read_rib(source, {}, unheard, count, {.counts_alone = true, .worlds = {}});
+}
+
+std::vector<int> worlds_of(const SceneSource& source) {
+    std::vector<int> numbers;
+    for_each_world(source, [&](const FilePicture& picture) { numbers.push_back(picture.number); });
     return numbers;
 }
 

@@ -23,7 +23,10 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
               const std::function<bool(SceneDescription&& world)>& take,
               ri::WorldChoice drawn = {});
 
-// The frame number of each world block, in order.
+// The picture of each world block, in order. Nothing is drawn, and nothing is found.
+void for_each_world(const SceneSource& source,
+                    const std::function<void(const FilePicture& picture)>& take);
+// Their frame numbers.
 std::vector<int> worlds_of(const SceneSource& source);
 
 // The world block ImportOptions::world. Nothing: there is none, or the file

@@ -133,9 +133,11 @@ void Interpreter::dispatch(const Call& call) {
         {R::Blobby, &C::not_drawn},
     };
     const RequestClass kind = row(call.request).kind;
-    // Archives, which may hold worlds, are found along an option, and conditions look at both.
+    // Archives, which may hold worlds, are found along an option, conditions look at both, and
+    // displays tell maps from pictures.
     if (drawn_.counts_alone && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
-        call.request != Request::Option && call.request != Request::Attribute)
+        call.request != Request::Option && call.request != Request::Attribute &&
+        call.request != Request::Display)
         return;
     if (kind == RequestClass::Option && state_.in_world())
         return report_.add(Code::RI_OPTION_IN_WORLD, row(call.request).name);

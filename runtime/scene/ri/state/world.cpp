@@ -259,13 +259,20 @@ std::vector<ShaderUse> World::shader_uses(const std::vector<Binding>& bindings,
     return uses;
 }
 
+// "wood", "wood 2": the next picture of a film has the same names for the same shaders.
+std::string World::numbered(const ShaderUse& use) {
+    const std::string name = use.shader ? std::string(use.shader->name) : "no shader";
+    const int count = ++worn_[name];
+    return count == 1 ? name : fmt::format("{} {}", name, count);
+}
+
 uint32_t World::light(const Light& light) {
     auto [entry, is_new] = lights_.try_emplace(light.get(), uint32_t(out_.lights.size()));
     if (!is_new) return entry->second;
     held_.push_back(light);
     LightDefinition definition;
-    definition.id = fmt::format("light {}", light->number);
     definition.shader = shader_use(light->shader, nullptr);
+    definition.id = numbered(definition.shader);
     definition.shadows = light->shadows;
     definition.samples = uint32_t(std::max(light->samples, 0));
     definition.where = light->shader.where;
@@ -320,13 +327,13 @@ uint32_t World::material(const Attributes& attributes, const dmat4& to_camera, b
     for (const auto* bindings : all) held_.insert(held_.end(), bindings->begin(), bindings->end());
     MaterialDefinition made;
     made.name = attributes.name;
-    made.id = fmt::format("material {}", entry->second);
     made.surfaces = shader_uses(attributes.surfaces, to_camera);
     if (made.surfaces.empty()) {
         ShaderUse plain;
         plain.shader = library_shader(attributes.no_surface ? "null" : "defaultsurface");
         made.surfaces.push_back(std::move(plain));
     }
+    made.id = numbered(made.surfaces.back());
     made.displacements = shader_uses(attributes.displacements, to_camera);
     made.transformations = shader_uses(attributes.deformations, to_camera);
     made.interior = shader_uses(attributes.interiors, to_camera);

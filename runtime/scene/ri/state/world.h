@@ -13,9 +13,9 @@
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/ri/calls/call.h"
-#include "runtime/scene/ri/state/graphics_state.h"
 #include "runtime/scene/ri/meshes/merged_meshes.h"
 #include "runtime/scene/ri/meshes/mesh_store.h"
+#include "runtime/scene/ri/state/graphics_state.h"
 #include "runtime/scene/tessellate/tessellate.h"
 
 namespace kinora::ri {
@@ -74,6 +74,7 @@ class World {
     ValueSlot values(std::span<const double> numbers);
     uint32_t light(const Light& light);
     uint32_t node(const dmat4& to_camera, std::string id = "");
+    std::string numbered(const ShaderUse& use);
     std::string space_name(const dmat4& to_camera);
     uint32_t atmosphere(const std::vector<Binding>& bindings);
     std::vector<uint32_t> light_list(const Attributes& attributes);
@@ -90,6 +91,7 @@ class World {
     std::map<std::vector<uint64_t>, uint32_t> materials_;
     std::map<const LightBinding*, uint32_t> lights_;
     std::map<std::vector<Binding>, uint32_t> atmospheres_;
+    std::map<std::string, int, std::less<>> worn_;   // shaders, how often so far
     std::vector<std::shared_ptr<const void>> held_;  // whose addresses are in keys
     std::map<std::array<double, 16>, uint32_t> nodes_;
     std::map<std::array<double, 16>, std::string> spaces_;

@@ -8,7 +8,7 @@ namespace kinora::ri {
 
 // Worlds that are not drawn come without primitives.
 struct WorldChoice {
-    bool counts_alone = false;  // none is drawn; their numbers are all that is wanted
+    bool counts_alone = false;  // none is drawn; numbers and displays are all that is wanted
     std::vector<int> worlds;    // by their order in the file, from 0; none: all
 
     bool draws(int world) const {
