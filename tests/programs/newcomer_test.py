@@ -72,7 +72,7 @@ class Newcomer(ProgramTest):
 
     def test_an_empty_list_says_so(self):
         self.expect(render(MATTE, "--lights", "scene", "--list", "aovs"), 0, "no aovs")
-        self.expect(render(MATTE, "-o", self.picture("a.exr"), "--aov", "N", *SMALL), 2, "'N'", "output varying")
+        self.expect(render(MATTE, "-o", self.picture("a.exr"), "--aov", "glow", *SMALL), 2, "'glow'", "output varying")
 
     def test_what_a_conversion_could_not_read_is_lost(self):
         scene = self.write("a.dae", dae.textured())
