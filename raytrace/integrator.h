@@ -10,6 +10,7 @@
 #include "raytrace/accel.h"
 #include "raytrace/camera.h"
 #include "raytrace/film.h"
+#include "raytrace/filter_grid.h"
 #include "raytrace/wavefront.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stage_clock.h"
@@ -47,9 +48,10 @@ struct IntegratorSettings {
     int samples_per_pixel = 1;            // 1: the pixel's centre; more: stratified over the filter
     const PixelFilter* filter = nullptr;  // nullptr: box
     double filter_width = 0;              // pixels; 0: the filter's own
-    uint32_t seed = 0;                    // of the frame
-    int max_layers = 256;                 // surfaces one ray may pass where Oi < 1
-    std::optional<vec3> background;       // nothing: transparent
+    std::shared_ptr<const FilterGrid> filter_grid = nullptr;  // instead of both
+    uint32_t seed = 0;                                        // of the frame
+    int max_layers = 256;            // surfaces one ray may pass where Oi < 1
+    std::optional<vec3> background;  // nothing: transparent
     NanPolicy nan = NanPolicy::Zero;
     float opaque_above = 0.9999f;  // a ray ends when its opacity exceeds this in all components
     int tile = 64;                 // pixels, a multiple of 4; less where there are many samples

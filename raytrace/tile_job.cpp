@@ -7,6 +7,9 @@
 #include <limits>
 #include <utility>
 
+#include "raytrace/hits.h"
+#include "raytrace/sampling.h"
+
 namespace kinora::raytrace {
 
 void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t aovs) {
@@ -140,6 +143,45 @@ void TileJob::begin_rays(size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) r.slot[k] = uint32_t(k);
 }
 
+// Rays of filters that are no product of two: one at a time.
+void TileJob::draw_from_grid() {
+    RayBatch& r = m_.rays;
+    for (size_t k = 0; k < r.count; ++k) {
+        const uint32_t x = r.pixel_x[k], y = r.pixel_y[k], sample = r.sample[k];
+        const dvec2 at =
+            dvec2(x + 0.5, y + 0.5) +
+            settings_.filter_grid->offset(int(sample), settings_.samples_per_pixel,
+                                          stratified_sample(sample, hash(x, y, settings_.seed)));
+        const CameraRay ray = camera_ray(camera_, at.x, at.y);
+        set_triple(r.org, k, ray.org);
+        set_triple(r.first_org, k, ray.org);
+        set_triple(r.dir, k, ray.dir);
+        set_triple(r.dDdx, k, ray.ddir_dx);
+        set_triple(r.dDdy, k, ray.ddir_dy);
+        r.tnear[k] = ray.tnear;
+        r.tfar[k] = ray.tfar;
+    }
+}
+
+// What a sample counts for of its pixel.
+double TileJob::weight_of(size_t slot) const {
+    if (!has_grid()) return 1;
+    const uint32_t sample = m_.samples[slot % m_.samples.size()].index;
+    return settings_.filter_grid->weight(int(sample), settings_.samples_per_pixel);
+}
+
+// A pixel's weights have the sum of unweighted samples, so what lets the background through does,
+// too.
+void TileJob::weigh_samples() {
+    for (size_t slot = 0; slot < tile_.pixels() * m_.samples.size(); ++slot) {
+        const auto weight = float(weight_of(slot));
+        for (size_t c = 0; c < 3; ++c) {
+            m_.color[c][slot] *= weight;
+            m_.through[c][slot] = 1 - weight * (1 - m_.through[c][slot]);
+        }
+    }
+}
+
 // Leaves of each ray what is not before the plane; one that is there as a whole meets nothing.
 void TileJob::cut_rays(const dvec4& plane) {
     RayBatch& r = m_.rays;
@@ -186,6 +228,7 @@ void TileJob::make_rays(int first_sample, int end_sample) {
     for (int sample = first_sample; sample < end_sample; ++sample)
         m_.samples.push_back(sample_bits(uint32_t(sample)));
     kernels_.rays(view_, pixels, m_.samples.data(), m_.samples.size(), filter, out);
+    if (has_grid()) draw_from_grid();
     for (size_t p = 0; p < camera_.plane_count; ++p) cut_rays(camera_.planes[p]);
     for (int c = 0; c < 3; ++c) {
         std::fill_n(m_.color[c].begin(), r.count, 0.0f);
@@ -295,9 +338,13 @@ void TileJob::keep_aovs(const HitBatch& hits) {
         const double weight = first_only ? 1.0 : 1.0 / settings_.samples_per_pixel;
         for (size_t k = 0; k < hits.count; ++k) {
             if ((first_only && hits.sample[k] != 0) || !shows_first(hits, k)) continue;
-            double& kept = m_.sum_aov[plane][pixel_of(m_.rays.slot[hits.ray[k]])];
+            const size_t slot = m_.rays.slot[hits.ray[k]];
+            double& kept = m_.sum_aov[plane][pixel_of(slot)];
             const double value = double(m_.shaded_aov[plane][k]);
-            kept = filter == AovFilter::Least ? std::min(kept, value) : kept + weight * value;
+            if (filter == AovFilter::Least)
+                kept = std::min(kept, value);
+            else
+                kept += weight * value * (first_only ? 1 : weight_of(slot));
         }
     }
 }
@@ -310,6 +357,7 @@ void TileJob::hold_out(const HitBatch& hits) {
         for (size_t c = 0; c < 3; ++c) {
             m_.shaded[c][k] = 0;
             m_.held[3 * pixel_of(slot) + c] +=
+                weight_of(slot) *
                 double(m_.through[c][slot] * std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f));
         }
         for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane)
@@ -388,6 +436,7 @@ bool TileJob::passes(size_t slot) const {
 }
 
 void TileJob::finish_samples() {
+    if (has_grid()) weigh_samples();
     const float *color[3], *through[3];
     for (int c = 0; c < 3; ++c) {
         color[c] = m_.color[c].data();

@@ -78,6 +78,10 @@ class TileJob {
     void make_rays(int first_sample, int end_sample);
     void begin_rays(size_t begin, size_t end);
     void cut_rays(const dvec4& plane);
+    void draw_from_grid();
+    bool has_grid() const { return settings_.filter_grid && settings_.samples_per_pixel > 1; }
+    double weight_of(size_t slot) const;
+    void weigh_samples();
     void follow_layers();
     enum class Ends : uint8_t { Surfaces, Nothing };
     void shade(const HitBatch& hits, Ends ends = Ends::Surfaces);

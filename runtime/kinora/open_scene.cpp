@@ -194,30 +194,15 @@ void set_sampling(raytrace::IntegratorSettings& settings, const Quality& quality
 
 namespace {
 
-// What the interface's filters are here. Those with lobes below 0, which no sample can have, are
-// the nearest that has none.
-struct FileFilter {
-    std::string_view name, ours;
-    double width;  // of ours, a part of its own
-};
-constexpr FileFilter kFileFilters[] = {
-    {"box", "box", 1},
-    {"triangle", "triangle", 1},
-    {"gaussian", "gaussian", 1},
-    {"mitchell", "gaussian", 0.5},
-    {"catmull-rom", "triangle", 0.5},
-    {"sinc", "box", 0.25},
-    {"bessel", "gaussian", 0.5},
-    {"disk", "box", 0.886},
-};
-
 void sample_as(const FilePicture& own, raytrace::IntegratorSettings& settings) {
     if (own.samples) settings.samples_per_pixel = own.samples;
-    for (const FileFilter& filter : kFileFilters)
-        if (filter.name == own.filter) {
-            settings.filter = raytrace::find_pixel_filter(filter.ours);
-            settings.filter_width = own.filter_width * filter.width;
-        }
+    if (const auto* filter = raytrace::find_pixel_filter(own.filter)) {
+        settings.filter = filter;
+        settings.filter_width = own.filter_width;
+    }
+    if (!own.filter_values.empty())
+        settings.filter_grid = std::make_shared<raytrace::FilterGrid>(
+            own.filter_values, own.filter_width, own.filter_height);
 }
 
 }  // namespace

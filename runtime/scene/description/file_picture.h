@@ -49,9 +49,11 @@ struct FilePicture {
     int full_width = 640, full_height = 480;
     int left = 0, top = 0;  // of the crop window in the full picture
     double pixel_aspect = 1;
-    int samples = 0;     // of a pixel; 0: the file does not say
-    std::string filter;  // "gaussian"; "": the file does not say
-    double filter_width = 2;
+    int samples = 0;                             // of a pixel; 0: the file does not say
+    std::string filter;                          // "gaussian"; "": the file does not say
+    double filter_width = 2, filter_height = 2;  // pixels
+    // Of a filter that is none of ours: as raytrace::FilterGrid takes it.
+    std::vector<float> filter_values;
     Exposure exposure;
     std::vector<FileDisplay> displays;
 };

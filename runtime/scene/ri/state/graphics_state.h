@@ -83,8 +83,9 @@ struct Options {
     std::vector<dvec4> planes;  // n . p + w > 0 is cut off; camera space
     double shutter_open = 0, shutter_close = 0;
     std::optional<std::array<double, 2>> samples;
-    std::string filter;
-    double filter_width = 2;
+    std::string filter;  // by its name; of the program's own: ""
+    double filter_width = 2, filter_height = 2;
+    std::vector<float> filter_values;  // FilePicture has it
     Exposure exposure;
     // By what they hold: "rgba", "z", or a variable that had its own.
     std::map<std::string, Quantization, std::less<>> quantizations = {{"z", {0, 0, 0}}};

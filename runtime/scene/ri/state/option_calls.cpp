@@ -7,6 +7,7 @@
 
 #include "runtime/base/transform_matrix.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/calls/context.h"
 #include "runtime/scene/ri/state/option_calls.h"
 
 namespace kinora::ri {
@@ -20,6 +21,27 @@ bool all_finite(const Call& call) {
     return std::ranges::all_of(call.arguments, [](const Values& values) {
         return std::ranges::all_of(values.floats(), [](float x) { return std::isfinite(x); });
     });
+}
+
+// Filters that the ray tracer has itself.
+constexpr std::string_view kSeparable[] = {"box", "triangle", "gaussian"};
+
+// The function at the middles of cells, called here and now: it may be the program's own.
+std::vector<float> filter_cells(RtFilterFunc function, double width, double height) {
+    constexpr int kCells = 64;
+    std::vector<float> values;
+    for (int row = 0; row < kCells; ++row)
+        for (int column = 0; column < kCells; ++column)
+            values.push_back(function(float(((column + 0.5) / kCells - 0.5) * width),
+                                      float(((row + 0.5) / kCells - 0.5) * height), float(width),
+                                      float(height)));
+    return values;
+}
+
+bool is_filter(const std::vector<float>& values) {
+    double sum = 0, size = 0;
+    for (float value : values) sum += double(value), size += std::abs(double(value));
+    return std::isfinite(size) && sum > 1e-3 * size;
 }
 
 }  // namespace
@@ -140,13 +162,23 @@ void OptionCalls::pixel_samples(const Call& call) {
 }
 
 void OptionCalls::pixel_filter(const Call& call) {
-    if (call.arguments[0].function())
-        return report_.not_done("PixelFilter", "a function of the program's own is not called");
     double width = real(call, 1), height = real(call, 2);
     if (!(width > 0 && height > 0 && width <= 64 && height <= 64))
         return report_.add(Code::RI_RANGE, "PixelFilter", "a width is not above 0");
-    state_.options.filter = std::string(call.arguments[0].string());
-    state_.options.filter_width = std::sqrt(width * height);
+    const std::string name(call.arguments[0].string());
+    auto own = reinterpret_cast<RtFilterFunc>(call.arguments[0].function());
+    const bool is_ours = std::ranges::count(kSeparable, name) > 0 && width == height;
+    const RtFilterFunc function = own ? own : is_ours ? nullptr : filter_function(name);
+    std::vector<float> values;
+    if (function) {
+        values = filter_cells(function, width, height);
+        if (!is_filter(values))
+            return report_.add(Code::RI_RANGE, "PixelFilter", "its values have no sum above 0");
+    }
+    state_.options.filter = name;
+    state_.options.filter_width = width;
+    state_.options.filter_height = height;
+    state_.options.filter_values = std::move(values);
 }
 
 void OptionCalls::exposure(const Call& call) {

@@ -94,6 +94,8 @@ FilePicture picture_of(const Options& options) {
         made.samples = std::max(1, int(std::lround((*options.samples)[0] * (*options.samples)[1])));
     made.filter = options.filter;
     made.filter_width = options.filter_width;
+    made.filter_height = options.filter_height;
+    made.filter_values = options.filter_values;
     made.pixel_aspect = options.pixel_aspect;
     made.exposure = options.exposure;
     made.displays = options.displays;

@@ -255,6 +255,41 @@ TEST(RiCamera, ADisplayWithoutPlusReplacesThoseBefore) {
     EXPECT_EQ(r.picture().displays[0].name, "c");
 }
 
+// Before an edge at pixel 8 the integrals of Catmull and Rom's filter, which is below 0 beyond 1:
+// 1/2 + the integral to 1/2, and to 3/2.
+TEST(RiCamera, FiltersHaveTheirLobes) {
+    RibPicture r(
+        "Format 16 16 1 PixelSamples 32 32 PixelFilter \"catmull-rom\" 4 4 WorldBegin Surface "
+        "\"constant\" Translate 0 0 5 Polygon \"P\" [-2 -2 0 -2 2 0 0 2 0 0 -2 0] WorldEnd");
+    EXPECT_EQ(r.findings(), "");
+    const double at_half = 0.5 + 0.5 - 2.5 / 24 + 1.5 / 64;
+    const double at_three_halves = 0.5 + 13.0 / 24 - 0.02865;
+    auto column = [&](int x) {
+        double sum = 0;
+        for (int y = 4; y < 12; ++y) sum += double(r.at(x, y).w) / 8;
+        return sum;
+    };
+    EXPECT_NEAR(column(7), at_half, 0.004);
+    EXPECT_NEAR(column(8), 1 - at_half, 0.004);
+    EXPECT_NEAR(column(6), at_three_halves, 0.004);
+    EXPECT_NEAR(column(9), 1 - at_three_halves, 0.004);
+    EXPECT_NEAR(r.at(2, 8).w, 1, 1e-5);
+    EXPECT_NEAR(r.at(13, 8).w, 0, 1e-5);
+}
+
+TEST(RiCamera, FiltersOfNamesThatWeDoNotHaveAreTabulated) {
+    for (const char* filter : {"\"box\" 2 2", "\"gaussian\" 3 3", "\"triangle\" 2 2"})
+        EXPECT_TRUE(RibWorlds(std::string("PixelFilter ") + filter + " WorldBegin WorldEnd")
+                        .picture()
+                        .filter_values.empty())
+            << filter;
+    for (const char* filter :
+         {"\"box\" 1 2", "\"disk\" 3 3", "\"sinc\" 4 4", "\"bessel\" 7 7", "\"mitchell\" 4 4"}) {
+        RibWorlds r(std::string("PixelFilter ") + filter + " WorldBegin WorldEnd");
+        EXPECT_EQ(r.picture().filter_values.size(), 64u * 64u) << filter << r.findings();
+    }
+}
+
 // (gain colour) ^ (1 / gamma): (2 * 0.125) ^ (1/2) = 0.5.
 TEST(RiCamera, ExposureIsGainAndGamma) {
     RibPicture r(kSmall + "Exposure 2 2 " + world(square(0, 0, 3, 2, ".125 .5 .02")));
