@@ -10,7 +10,7 @@
 #include "raytrace/accel.h"
 #include "raytrace/camera.h"
 #include "raytrace/film.h"
-#include "raytrace/filter_grid.h"
+#include "raytrace/pixels/filter_grid.h"
 #include "raytrace/wavefront.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stage_clock.h"

@@ -1,6 +1,6 @@
-// tests/raytrace/filter_grid_test.cpp: what filters with values below 0 make of functions whose
-// mean under them is a sum over the grid.
-#include "raytrace/filter_grid.h"
+// tests/raytrace/pixels/filter_grid_test.cpp: what filters with values below 0 make of functions
+// whose mean under them is a sum over the grid.
+#include "raytrace/pixels/filter_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ struct FrameStats {
     uint64_t columns = 0;       // floats gathered for kernels
     uint64_t non_finite = 0;
     int refits = 0, rebuilds = 0;
-    int kept_trees = 0;  // built for earlier pictures of a film
+    int kept_trees = 0;        // built for earlier pictures of a film
     size_t rows_compared = 0;  // of the ray tracer, with those of the frame before
     double dice_error = 0;     // runtime/scene/vertices/dice_error.h
     bool too_coarse = false;   // the frame was let go for that

@@ -38,7 +38,7 @@ struct ImportOptions {
     std::optional<UpAxis> up_axis;                 // instead of the file's
     std::optional<double> meter;                   // instead of the file's
     std::vector<std::string> include_directories;  // for #include in shaders
-    int world = -1;            // of a RIB file with several pictures, from 0; -1: the last
+    int world = -1;  // of a RIB file with several pictures, from 0; -1: the last
     // The picture that curved surfaces are made triangles for: pixels across and down (0, 0: as a
     // RIB file says), times `scale`, and how many of these lie between a curve and its triangles.
     int width = 0, height = 0;

@@ -1,4 +1,4 @@
-// raytrace/filter_grid.h: pixel filters of any shape, also with values below 0.
+// raytrace/pixels/filter_grid.h: pixel filters of any shape, also with values below 0.
 //
 // A fixed number of a pixel's samples is drawn where the filter is below 0, the others where it is
 // above, each with the filter's density there. Both have fixed weights, so that no sum of weights

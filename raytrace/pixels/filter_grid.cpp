@@ -1,5 +1,5 @@
-// raytrace/filter_grid.cpp: inverse sums of a filter's rows and cells.
-#include "raytrace/filter_grid.h"
+// raytrace/pixels/filter_grid.cpp: inverse sums of a filter's rows and cells.
+#include "raytrace/pixels/filter_grid.h"
 
 #include <algorithm>
 #include <cmath>
