@@ -1,4 +1,4 @@
-// tests/raytrace/pixels/filter_grid_test.cpp: what filters with values below 0 make of functions
+// tests/raytrace/filter_grid_test.cpp: what filters with values below 0 make of functions
 // whose mean under them is a sum over the grid.
 #include "raytrace/pixels/filter_grid.h"
 
