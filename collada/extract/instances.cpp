@@ -66,8 +66,7 @@ std::optional<std::vector<uint32_t>> read_light_list(Extraction& x, Link owner) 
         if (light != kNone) lights.push_back(light);
     }
     std::ranges::sort(lights);
-    auto repeated = std::ranges::unique(lights);
-    lights.erase(repeated.begin(), repeated.end());
+    lights.erase(std::unique(lights.begin(), lights.end()), lights.end());
     return lights;
 }
 
