@@ -134,8 +134,8 @@ bool may_mean(const Shader& shader, std::string_view handle) {
 std::vector<LinkedSource> sources_of(const std::vector<LinkedPart>& parts) {
     std::vector<LinkedSource> sources;
     for (const LinkedPart& part : parts)
-        sources.push_back({part.handle, {*part.text, part.map}, part.shader, part.texts,
-                           part.counts});
+        sources.push_back(
+            {part.handle, {*part.text, part.map}, part.shader, part.texts, part.counts});
     return sources;
 }
 
@@ -166,6 +166,27 @@ std::vector<size_t> parts_to_keep(const Shader& linked) {
         if (used || part.text == linked.parts[0].text) kept.push_back(k);
     }
     return kept;
+}
+
+const Symbol* find_handle_parameter(const Shader& shader, std::string_view name) {
+    for (const Symbol* symbol : shader.definition->handles)
+        if (symbol->name == name) return symbol;
+    return nullptr;
+}
+
+std::vector<std::string> handles_in(const std::vector<std::string>& texts) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    std::vector<std::string> handles;
+    for (std::string_view rest : texts)
+        while (!rest.empty()) {
+            std::string_view word = rest.substr(0, rest.find(','));
+            rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+            size_t begin = word.find_first_not_of(kSpace);
+            if (begin == word.npos) continue;
+            word = word.substr(begin, word.find_last_not_of(kSpace) + 1 - begin);
+            if (word != "null") handles.emplace_back(word);
+        }
+    return handles;
 }
 
 std::string portable_text(const Shader& shader, size_t part) {

@@ -40,6 +40,12 @@ bool knows_co_shaders(const Shader& shader);
 // text that is known only when it runs.
 bool may_mean(const Shader& shader, std::string_view handle);
 
+// The parameter of this name, if it holds handles of co-shaders; null: it does not.
+const Symbol* find_handle_parameter(const Shader& shader, std::string_view name);
+
+// The handles in texts given to such a parameter: commas divide them, "" and "null" are none.
+std::vector<std::string> handles_in(const std::vector<std::string>& texts);
+
 // The shader itself and the co-shaders that a copy of it needs: those that it uses, and those that
 // stand in its text. Numbers of parts.
 std::vector<size_t> parts_to_keep(const Shader& linked);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rsl/link.h"
 #include "runtime/scene/dae/import_p.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/description/shader_library.h"
@@ -72,7 +73,7 @@ void ColladaImport::add_binds(const BoundShader& shader, const std::string& pref
                               ShaderUse& use) {
     std::shared_ptr<const rsl::Shader> alone = linker().chosen(shader);
     for (const collada::RslBind& bind : shader.from->binds) {
-        if (find_handle_parameter(*alone, bind.symbol)) continue;
+        if (rsl::find_handle_parameter(*alone, bind.symbol)) continue;
         bool unheard = prefix.empty() || told_.insert(&bind).second;
         const rsl::ShaderParameter* parameter = find_parameter(*alone, bind.symbol);
         if (!parameter) {

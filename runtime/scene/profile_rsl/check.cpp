@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "rsl/compile.h"
+#include "rsl/link.h"
 #include "rsl/lower/lower.h"
 #include "runtime/scene/profile_rsl/effect_linker.h"
 #include "runtime/scene/profile_rsl/findings.h"
@@ -148,7 +149,7 @@ class Check {
         std::vector<std::string_view> known;
         for (const BoundShader& other : linker_.in_scope(shader))
             known.push_back(other.from->handle);
-        for (const std::string& handle : handles_in(value.strings)) {
+        for (const std::string& handle : rsl::handles_in(value.strings)) {
             if (std::ranges::count(known, handle)) continue;
             std::string_view near = nearest_name(handle, known);
             diagnostics_.report(Code::RSL_HANDLE_UNBOUND, where, handle, parameter.name).help =
@@ -165,7 +166,7 @@ class Check {
             if (!seen.insert(bind.symbol).second)
                 diagnostics_.report(Code::RSL_BIND_TWICE, bind.where, bind.symbol);
             const collada::ParamValue& value = bound_value(scene_, shader, bind);
-            if (const rsl::Symbol* handle = find_handle_parameter(*pass.shader, bind.symbol)) {
+            if (const rsl::Symbol* handle = rsl::find_handle_parameter(*pass.shader, bind.symbol)) {
                 check_handles(*handle, shader, value, bind.where);
                 continue;
             }
@@ -215,7 +216,7 @@ class Check {
     void check_setparam(const collada::SetParam& set, const collada::RslBind& bind,
                         const PassShader& pass, uint32_t effect) {
         if (!pass.shader) return;
-        if (const rsl::Symbol* handle = find_handle_parameter(*pass.shader, bind.symbol))
+        if (const rsl::Symbol* handle = rsl::find_handle_parameter(*pass.shader, bind.symbol))
             return check_handles(*handle, {pass.from, effect}, set.value, set.where);
         const rsl::ShaderParameter* parameter = pass.parameter(bind.symbol);
         if (parameter && !takes(*parameter, set.value))

@@ -24,27 +24,6 @@ const collada::ParamValue& bound_value(const collada::SceneData& scene, const Bo
     return scene.effects[shader.effect].params[bind.param].value;
 }
 
-const rsl::Symbol* find_handle_parameter(const rsl::Shader& shader, std::string_view name) {
-    for (const rsl::Symbol* symbol : shader.definition->handles)
-        if (symbol->name == name) return symbol;
-    return nullptr;
-}
-
-std::vector<std::string> handles_in(const std::vector<std::string>& texts) {
-    constexpr std::string_view kSpace = " \t\r\n";
-    std::vector<std::string> handles;
-    for (std::string_view rest : texts)
-        while (!rest.empty()) {
-            std::string_view word = rest.substr(0, rest.find(','));
-            rest.remove_prefix(std::min(word.size() + 1, rest.size()));
-            size_t begin = word.find_first_not_of(kSpace);
-            if (begin == word.npos) continue;
-            word = word.substr(begin, word.find_last_not_of(kSpace) + 1 - begin);
-            if (word != "null") handles.emplace_back(word);
-        }
-    return handles;
-}
-
 EffectLinker::EffectLinker(const collada::SceneData& scene, rsl::CompileOptions options,
                            Diagnostics& diagnostics)
     : scene_(scene), options_(std::move(options)), diagnostics_(diagnostics) {
@@ -172,7 +151,7 @@ std::vector<BoundShader> EffectLinker::co_shaders(const BoundShader& shader) {
         if (!code || !rsl::knows_co_shaders(*code)) continue;
         std::vector<std::string> bound;
         for (const auto& [symbol, strings] : texts(caller)) {
-            std::vector<std::string> handles = handles_in(strings);
+            std::vector<std::string> handles = rsl::handles_in(strings);
             bound.insert(bound.end(), handles.begin(), handles.end());
         }
         for (size_t k = 0; k < scope.size(); ++k) {
@@ -194,7 +173,7 @@ rsl::LinkedSource EffectLinker::source(const BoundShader& shader, const std::str
     rsl::LinkTexts bound = texts(shader);
     auto alone = chosen(shader);
     for (auto& [symbol, strings] : bound)
-        if (find_handle_parameter(*alone, symbol)) strings = handles_in(strings);
+        if (rsl::find_handle_parameter(*alone, symbol)) strings = rsl::handles_in(strings);
     return {handle, {own.text, own.map}, alone->name, std::move(bound), counts(shader)};
 }
 

@@ -74,10 +74,4 @@ class EffectLinker {
     std::map<std::string, std::shared_ptr<const rsl::Shader>> linked_;   // by what decides it
 };
 
-// A parameter of type shader or shader[]: it takes handles. Null if the shader has none of it.
-const rsl::Symbol* find_handle_parameter(const rsl::Shader& shader, std::string_view name);
-
-// The handles that a string for such a parameter names: commas divide them. "" and "null" are none.
-std::vector<std::string> handles_in(const std::vector<std::string>& texts);
-
 }  // namespace kinora

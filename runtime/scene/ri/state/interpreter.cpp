@@ -1,6 +1,7 @@
 // runtime/scene/ri/state/interpreter.cpp: which function does which request, and where each may
 // stand.
 #include "runtime/scene/ri/state/interpreter.h"
+#include "rsl/link.h"
 
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/calls/ri.h"
@@ -187,7 +188,7 @@ const Declaration* Interpreter::declared_by_shader(Request request, std::string_
     if (is_shader_request(request)) {
         const std::shared_ptr<const rsl::Shader> found = shaders_.find(shader);
         formal = formal_of(found.get(), token);
-        if (found && !formal && handle_parameter(*found, token)) {
+        if (found && !formal && rsl::find_handle_parameter(*found, token)) {
             formal_ = {StorageClass::Uniform, Type::String, 0};
             return &formal_;
         }

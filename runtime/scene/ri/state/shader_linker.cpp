@@ -10,28 +10,12 @@
 namespace kinora::ri {
 namespace {
 
-// Commas divide handles; "" and "null" are none.
-std::vector<std::string> handles_of(const std::vector<std::string>& texts) {
-    constexpr std::string_view kSpace = " \t\r\n";
-    std::vector<std::string> handles;
-    for (std::string_view rest : texts)
-        while (!rest.empty()) {
-            std::string_view word = rest.substr(0, rest.find(','));
-            rest.remove_prefix(std::min(word.size() + 1, rest.size()));
-            size_t begin = word.find_first_not_of(kSpace);
-            if (begin == word.npos) continue;
-            word = word.substr(begin, word.find_last_not_of(kSpace) + 1 - begin);
-            if (word != "null") handles.emplace_back(word);
-        }
-    return handles;
-}
-
 rsl::LinkTexts texts_of(const ShaderBinding& binding) {
     rsl::LinkTexts texts;
     for (const ShaderArgument& argument : binding.arguments)
         if (argument.type == Type::String)
-            texts[argument.name] = handle_parameter(*binding.shader, argument.name)
-                                       ? handles_of(argument.strings)
+            texts[argument.name] = rsl::find_handle_parameter(*binding.shader, argument.name)
+                                       ? rsl::handles_in(argument.strings)
                                        : argument.strings;
     return texts;
 }
@@ -50,7 +34,7 @@ bool means(const ShaderBinding& caller, const std::string& handle) {
     if (!rsl::knows_co_shaders(*caller.shader)) return false;
     if (rsl::may_mean(*caller.shader, handle)) return true;
     return std::ranges::any_of(caller.arguments, [&](const ShaderArgument& argument) {
-        return std::ranges::count(handles_of(argument.strings), handle) > 0;
+        return std::ranges::count(rsl::handles_in(argument.strings), handle) > 0;
     });
 }
 
@@ -97,12 +81,6 @@ void adopt(ShaderBinding& binding, const CoShader& co_shader) {
 }
 
 }  // namespace
-
-const rsl::Symbol* handle_parameter(const rsl::Shader& shader, std::string_view name) {
-    for (const rsl::Symbol* symbol : shader.definition->handles)
-        if (symbol->name == name) return symbol;
-    return nullptr;
-}
 
 rsl::LinkedSource ShaderLinker::source(const ShaderBinding& binding,
                                        const std::string& handle) const {

@@ -14,9 +14,6 @@
 
 namespace kinora::ri {
 
-// A parameter of type shader or shader[], which takes handles. Null: there is none of that name.
-const rsl::Symbol* handle_parameter(const rsl::Shader& shader, std::string_view name);
-
 class ShaderLinker {
   public:
     ShaderLinker(const ShaderSearch& search, Diagnostics& diagnostics)
