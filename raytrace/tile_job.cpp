@@ -182,7 +182,7 @@ void TileJob::weigh_samples() {
     }
 }
 
-// Leaves of each ray what is not before the plane; one that is there as a whole meets nothing.
+// Cuts each ray to its part behind the plane. A ray without such a part gets an empty range.
 void TileJob::cut_rays(const dvec4& plane) {
     RayBatch& r = m_.rays;
     for (size_t k = 0; k < r.count; ++k) {
