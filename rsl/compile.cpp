@@ -7,6 +7,7 @@
 #include "rsl/check/usage.h"
 #include "rsl/compile_p.h"
 #include "rsl/objects/integrators.h"
+#include "rsl/objects/light_samples.h"
 #include "rsl/objects/objects.h"
 #include "rsl/objects/sample_pairs.h"
 #include "rsl/syntax/parser.h"
@@ -118,6 +119,7 @@ std::vector<std::unique_ptr<Shader>> finish_compiling(const std::shared_ptr<Ast>
         for (ShaderDefinition* shader : ast->shaders)
             shader->only_displaces = can_displace(*shader);
     bind_integrators(*ast, reporter, units);
+    bind_light_samples(*ast, units);
     bind_sample_pairs(*ast, reporter, units);
     if (!expand_objects(*ast, reporter, std::move(units), options.counts)) return {};
     Checker(*ast, reporter, options, recovery).run();

@@ -186,7 +186,9 @@ void lightsource(LowerCall& c) {
 // What getlights() gives for the light that the illuminance loop is at: below 0.
 void lighthandle(LowerCall& c) {
     if (!c.lights.any_current()) return;
-    c.set(c.b.sub(c.b.f(-1), c.b.itof(c.lights.current().record)));
+    auto [set, record] = c.lights.current();
+    Value handle = record_uniform(c.b, set, record, kLightHandle, jit::Type::I);
+    c.set(c.b.sub(c.b.f(-1), c.b.itof(handle)));
 }
 
 // A call that nothing answers: the value is 0.

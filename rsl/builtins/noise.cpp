@@ -2,6 +2,7 @@
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
+#include "rsl/reference/service_calls_p.h"
 
 namespace kinora::rsl {
 
@@ -34,7 +35,15 @@ void pnoise(LowerCall& c) {
 void cellnoise(LowerCall& c) {
     set(c, jit::math::cellnoise(c.b, coordinates(c, 0, c.args.size()), components(c)));
 }
+// Sample methods draw from the sequence that all samples of a pixel share.
 void random(LowerCall& c) {
+    if (c.seeds.stratifies() && components(c) == 1) {
+        c.context.out.uses_rng = c.context.out.draws_random = true;
+        const SampleSeeds::Draw draw = c.seeds.draw(c.call.site);
+        return c.set(c.services.call(Service::stratified,
+                                     std::array{rng_input(c.b), draw.sequence, draw.index,
+                                                draw.count})[draw.second ? 1 : 0]);
+    }
     for (int k = 0; k < components(c); ++k) c.result.c[size_t(k)] = c.seeds.random01(c.call, k);
 }
 
@@ -110,8 +119,10 @@ void cellnoise(RefCall<Real>& c) {
 // the loops around it (docs/decisions.md#random-numbers-without-state).
 template <class Real>
 void random(RefCall<Real>& c) {
+    if (c.eval.inlined.stratifies && c.result.size() == 1)
+        return set_from(c, c.eval.service(Service::stratified, {0, 0, 0, 0}));
     for (size_t k = 0; k < c.result.size(); ++k) {
-        uint32_t site = (c.eval.inline_path * 2654435761u) ^ (c.call.site * 40503u + uint32_t(k));
+        uint32_t site = (c.eval.inlined.path * 2654435761u) ^ (c.call.site * 40503u + uint32_t(k));
         std::vector<int32_t> keys = {
             int32_t(int64_t(c.eval.in.values.count("rng") ? c.eval.in.values.at("rng") : 0)),
             int32_t(site)};

@@ -73,6 +73,7 @@ const std::vector<BuiltinGroup>& builtin_groups() {
         {"Lighting", builtins_light()},
         {"Rays", builtins_rays()},
         {"Occlusion and indirect light", builtins_occlusion()},
+        {"Sampling lights", builtins_sampling()},
         {"Point files", builtins_points()},
         {"Textures", builtins_texture()},
         {"Environments and shadows", builtins_environment()},

@@ -21,6 +21,7 @@ std::span<const Builtin> builtins_spaces();
 std::span<const Builtin> builtins_color();
 std::span<const Builtin> builtins_noise();
 std::span<const Builtin> builtins_light();
+std::span<const Builtin> builtins_sampling();
 std::span<const Builtin> builtins_rays();
 std::span<const Builtin> builtins_occlusion();
 std::span<const Builtin> builtins_points();

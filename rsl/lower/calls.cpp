@@ -2,6 +2,7 @@
 #include "rsl/lower/calls.h"
 
 #include "rsl/lower/values.h"
+#include "rsl/model/builtin.h"
 
 namespace kinora::rsl {
 
@@ -64,7 +65,7 @@ Lowered Calls::lower(const CallExpr& e) {
             slots_.write(variables_.slot_of(parameter), values[k]);
         }
     }
-    SampleSeeds::Path path = seeds_.enter_call(e.site);
+    SampleSeeds::Path path = seeds_.enter_call(e.site, is_sample_method(f.name));
     Lowered result = loops_.run_function(f, [&] { tree_.block(f.body->body); });
     seeds_.leave_call(path);
     for (size_t k = 0; k < e.args.size(); ++k) {

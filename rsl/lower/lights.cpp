@@ -46,12 +46,19 @@ Value inside(Emitter& e, const LightCone& cone, const V3& L) {
 
 void Illuminance::lower(const IlluminanceStmt& stmt) {
     Lowered position = tree_.expr(*stmt.position);
-    Value set = records_.set_at(position.v3());
+    Value set = set_of(stmt, position);
     LightCone around = cone_of(e_, tree_, stmt.axis, stmt.angle);
     records_.look_about(set, around.half ? &around.axis : nullptr);
     if (!stmt.category) records_.look_at_all(false);
     loops_.replay(stmt, set,
                   [&](Value record) { light_body(stmt, set, record, around, position); });
+}
+
+// "recordset", number: the set that samplinglights() gave; else the lights at the position.
+Value Illuminance::set_of(const IlluminanceStmt& stmt, const Lowered& position) {
+    for (size_t k = 1; k < stmt.pairs.size(); k += 2)
+        if (pair_name(stmt.pairs, k) == kRecordSetPair) return b_.ftoi(tree_.value(*stmt.pairs[k]));
+    return records_.set_at(position.v3());
 }
 
 // "light:x", variable: as lightsource("x", variable). "lightcache" needs nothing: records of a
@@ -124,7 +131,10 @@ void LightShader::begin(const Changes& changes) {
     for (const Source& light : sources_)
         context_.out.light_statements.push_back(
             {light.stmt->kind == StmtKind::Solar ? kLightSolar : kLightIlluminate, shadows});
-    if (sources_.empty()) context_.out.light_statements.push_back({kLightAmbient, false});
+    const bool sampled = changes.effects & kSendsSamples;
+    if (sampled) context_.out.light_statements.push_back({kLightIlluminate, shadows, true});
+    if (sources_.empty() && !sampled)
+        context_.out.light_statements.push_back({kLightAmbient, false});
 }
 
 // L points from the light. Lanes outside the cone keep a dark record.
@@ -193,7 +203,7 @@ void LightShader::outputs() {
         const Value spread = slots_.read(light.spread).c[0];
         if (!e_.is_zero(spread)) output(light_key(k, kLightSpread), jit::Type::F, spread);
     }
-    if (sources_.empty())
+    if (sources_.empty() && !context_.out.light_statements.back().sampled)
         record(0, zero(e_, BaseType::Vector), globals_.read(Global::Cl), globals_.read(Global::Ol),
                b_.m(true));
 }

@@ -34,6 +34,7 @@ class Illuminance {
   private:
     void light_body(const IlluminanceStmt& stmt, Value set, Value record, const LightCone& around,
                     const Lowered& position);
+    Value set_of(const IlluminanceStmt& stmt, const Lowered& position);
     void light_pairs(const IlluminanceStmt& stmt);
 
     Emitter& e_;

@@ -133,7 +133,8 @@ void Loops::run(const Stmt& stmt, const Changes& changes, const std::function<Va
     Regions::Outer around = regions_.enter_loop();
     Loop jumps = begin_jumps(stmt, changes);
     Value inside = b_.begin_loop(enter, loop_site(stmt));
-    if (changes.random) seeds_.push_counter(b_.loop_var(b_.i(0)));
+    const Value turns = std::exchange(turns_, jit::kNone);
+    if (changes.random) seeds_.push_counter(b_.loop_var(b_.i(0)), turns);
     Carried carried = open_carried(carried_slots(changes));
     state_.loops.push_back(jumps);
     e_.running = inside;

@@ -15,6 +15,9 @@ namespace kinora::rsl {
 
 class Loops {
   public:
+    bool stratifies() const { return seeds_.stratifies(); }
+    // How often the next loop that run() makes turns, an int; none: not known.
+    void expect_turns(Value turns) { turns_ = turns; }
     Loops(Emitter& emitter, LoweringContext& context, Slots& slots, Regions& regions,
           Arrays& arrays, Variables& variables, SampleSeeds& seeds)
         : e_(emitter),
@@ -67,6 +70,8 @@ class Loops {
     void leave_function(State&& outer) { state_ = std::move(outer); }
 
   private:
+    Value turns_ = jit::kNone;  // of expect_turns()
+
     // The variables that a loop carries: opened right after begin_loop; close() right before
     // end_loop gives their next values, out() after it leaves the last ones in the slots.
     struct Carried {

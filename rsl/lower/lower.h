@@ -43,6 +43,7 @@ struct LowerOptions {
 struct LightStatement {
     LightKind kind = kLightAmbient;
     bool casts_shadow = true;  // false: the shader itself calls shadow, transmission or trace
+    bool sampled = false;      // no outputs: it sends samples (the service "lightsample")
 };
 
 // The lights at P that a kernel's loops look at: those within 90 degrees of ... (bits).
@@ -64,6 +65,8 @@ struct LoweredShader {
     // to be; all lights with a direction; ambient ones. Others' kernels need not run.
     uint32_t lit_categories = 0, lit_without = 0;
     bool lit_by_all = false, lit_by_ambient = false;
+    bool lit_by_samples = false;  // some integrator asks lights for what they send from directions
+    std::string light_domain = "sphere";  // the directions that lights with sample methods are for
     std::vector<std::string> light_messages;  // names read by lightsource(), columns in this order
     std::vector<int> light_message_components;
     std::vector<Type> light_message_types;  // an array's elements follow one another

@@ -94,8 +94,9 @@ Value SampleSeeds::path_value() {
                    b_.i(int32_t(state_.path)));
 }
 
-SampleSeeds::Path SampleSeeds::enter_call(uint32_t site) {
-    Path outer{state_.path, state_.factor};
+SampleSeeds::Path SampleSeeds::enter_call(uint32_t site, bool samples) {
+    Path outer{state_.path, state_.factor, state_.stratifies};
+    state_.stratifies |= samples;
     state_.path = state_.path * 31 + site + 1;
     state_.factor *= 31;
     return outer;
@@ -114,6 +115,30 @@ std::array<Value, 2> SampleSeeds::sample(uint32_t site) {
     for (Value counter : state_.counters)
         seed = b_.iadd(b_.imul(seed, b_.i(int32_t(747796405u))), b_.iadd(counter, b_.i(1)));
     return {rng_input(b_), seed};
+}
+
+SampleSeeds::Draw SampleSeeds::draw(uint32_t site) {
+    const Value counter = state_.counters.empty() ? jit::kNone : state_.counters.back();
+    const bool second =
+        state_.open && state_.first_path == state_.path && state_.first_counter == counter;
+    if (!second) state_.first_site = site;
+    state_.first_path = state_.path;
+    state_.first_counter = counter;
+    state_.open = !second;
+    Value path = b_.imul(path_value(), b_.i(int32_t(2654435761u)));
+    Draw draw{b_.ixor(path, b_.i(int32_t((state_.first_site + 1) * 2246822519u))), b_.i(0), b_.i(1),
+              second};
+    for (size_t k = 0; k < state_.counters.size(); ++k) {
+        const bool innermost = k + 1 == state_.counters.size();
+        if (innermost && state_.turns[k] != jit::kNone) {
+            draw.index = state_.counters[k];
+            draw.count = state_.turns[k];
+        } else {
+            draw.sequence = b_.iadd(b_.imul(draw.sequence, b_.i(int32_t(747796405u))),
+                                    b_.iadd(state_.counters[k], b_.i(1)));
+        }
+    }
+    return draw;
 }
 
 // docs/decisions.md#random-numbers-without-state: a hash of the sample, the site of the call and

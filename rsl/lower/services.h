@@ -52,24 +52,46 @@ class SampleSeeds {
     // The ints that seed a call's samples: the point's, and this site's with its loop iterations.
     std::array<Value, 2> sample(uint32_t site);
 
+    // Inside a sample method: calls of random() in a row are the two numbers of a sample, and the
+    // turns of the loop around them its samples.
+    bool stratifies() const { return state_.stratifies; }
+    struct Draw {
+        Value sequence, index, count;
+        bool second;
+    };
+    Draw draw(uint32_t site);
+
     void enter_layer() { state_.path = state_.path * 31 + 7; }
-    void push_counter(Value counter) { state_.counters.push_back(counter); }
-    void pop_counter() { state_.counters.pop_back(); }
+    // `turns`: how often the loop turns; none: not known.
+    void push_counter(Value counter, Value turns = jit::kNone) {
+        state_.counters.push_back(counter);
+        state_.turns.push_back(turns);
+    }
+    void pop_counter() { state_.counters.pop_back(), state_.turns.pop_back(); }
     Value counter() const { return state_.counters.back(); }
 
     // The functions inlined around here, kept and restored around a body.
     struct Path {
         uint32_t path, factor;
+        bool stratifies;
     };
-    Path enter_call(uint32_t site);
-    void leave_call(const Path& outer) { state_.path = outer.path, state_.factor = outer.factor; }
+    Path enter_call(uint32_t site, bool samples);
+    void leave_call(const Path& outer) {
+        state_.path = outer.path, state_.factor = outer.factor;
+        state_.stratifies = outer.stratifies;
+    }
     // For a function of the IR called at this site: the path with the loop iterations in it.
     Value path_into(uint32_t site);
 
     // `path`, or handed_in * factor + path inside a function of the IR.
     struct State {
-        std::vector<Value> counters;
+        std::vector<Value> counters, turns;
         uint32_t path = 0, factor = 1;
+        bool stratifies = false;
+        // The first call of a pair that has no second yet, and where it stands.
+        bool open = false;
+        uint32_t first_site = 0, first_path = 0;
+        Value first_counter = jit::kNone;
         Value handed_in = jit::kNone;
     };
     State enter_function() { return std::exchange(state_, {}); }

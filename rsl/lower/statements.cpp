@@ -75,7 +75,8 @@ void Statements::run_statements(std::span<Stmt* const> body) {
 }
 
 void Statements::branch(const IfStmt& stmt) {
-    // Behind opacity, where opacity alone is wanted: what is under the threshold is a hole there too.
+    // Behind opacity, where opacity alone is wanted: what is under the threshold is a hole there
+    // too.
     bool skips = stmt.behind_opacity && !context_.options.want_Ci;
     // Without a threshold Oi is 0 there already.
     const Stmt* otherwise = stmt.no;
@@ -103,6 +104,53 @@ void Statements::branch(const IfStmt& stmt) {
         e_.running = e_.running == before ? after_yes : b_.logical_and(e_.running, after_yes);
 }
 
+namespace {
+
+const Symbol* variable_of(const Expr* e) {
+    const auto* variable = as_if<VariableExpr>(e);
+    return variable ? variable->symbol : nullptr;
+}
+
+bool is_one(const Expr* e) {
+    const auto* number = as_if<NumberExpr>(e);
+    return number && number->value == 1;
+}
+
+// i += 1, i = i + 1
+bool counts_up(const Expr& step, const Symbol* counter) {
+    const auto* assign = as_if<AssignExpr>(&step);
+    if (!assign || variable_of(assign->target) != counter) return false;
+    if (assign->op == Op::Add) return is_one(assign->value);
+    const auto* sum = as_if<BinaryExpr>(assign->value);
+    return assign->op == Op::None && sum && sum->op == Op::Add && is_one(sum->right) &&
+           variable_of(sum->left) == counter;
+}
+
+// What may be computed once more: numbers, variables and their sums.
+bool is_plain(const Expr& e) {
+    if (e.kind == ExprKind::Number || e.kind == ExprKind::Variable) return true;
+    const auto* call = as_if<CallExpr>(&e);
+    if (call && call->name == "arraylength") return true;
+    const auto* both = as_if<BinaryExpr>(&e);
+    return both && is_plain(*both->left) && is_plain(*both->right);
+}
+
+}  // namespace
+
+Value Statements::turns_of(const ForStmt& stmt) {
+    const auto* condition = as_if<BinaryExpr>(stmt.condition);
+    const Symbol* counter = condition ? variable_of(condition->left) : nullptr;
+    const bool less = condition && condition->op == Op::Less;
+    const bool up_to = condition && condition->op == Op::LessEqual;
+    if (!counter || !(less || up_to) || stmt.step.size() != 1 ||
+        !counts_up(*stmt.step[0], counter) || !is_plain(*condition->right))
+        return jit::kNone;
+    Value turns = b_.sub(tree_.value(*condition->right), tree_.value(*condition->left));
+    if (up_to) turns = b_.add(turns, b_.f(1));
+    turns = b_.ftoi(b_.op(up_to ? jit::Op::Floor : jit::Op::Ceil, turns));
+    return b_.select(b_.op(jit::Op::ILt, turns, b_.i(1)), b_.i(1), turns);
+}
+
 void Statements::loop(const Stmt& stmt) {
     ChangeFinder finder(context_.ast());
     if (auto* node = as_if<WhileStmt>(&stmt)) {
@@ -117,6 +165,7 @@ void Statements::loop(const Stmt& stmt) {
     finder.add(node.condition);
     finder.add(node.body);
     for (const Expr* step : node.step) finder.add(step);
+    if (finder.changes.random && loops_.stratifies()) loops_.expect_turns(turns_of(node));
     loops_.run(
         stmt, finder.changes,
         [&] {

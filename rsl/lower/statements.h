@@ -36,6 +36,8 @@ class Statements {
     void evaluate(const Expr& e);
     void branch(const IfStmt& stmt);
     void loop(const Stmt& stmt);
+    // How often a loop turns that counts a variable up by 1, an int; none: not known.
+    Value turns_of(const ForStmt& stmt);
     void run_statements(std::span<Stmt* const> body);
     void return_from(const ReturnStmt& stmt);
 

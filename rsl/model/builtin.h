@@ -54,6 +54,7 @@ enum Effects : uint32_t {
     kReadsLength = 1 << 14,     // the result is an array's length, whatever its elements are
     kSetsLength = 1 << 15,      // changes the length of its first argument, a resizable array
     kForHeaders = 1 << 16,      // called by our own headers and by what calls of handles become
+    kSendsSamples = 1 << 17,    // its presence in a light makes records of what it sends
 };
 
 // Shader kinds that may call the function.
@@ -66,6 +67,12 @@ enum LegalIn : uint8_t {
     kTransformation = 32,
     kAnyShader = 63,
 };
+
+// Whether a function of that name, a class's, a struct's or a co-shader's, makes samples. Names have
+// prefixes of owners and suffixes of struct arguments.
+inline bool is_sample_method(std::string_view name) {
+    return name.find("generateSamples") != name.npos;
+}
 
 // A row. `signature` holds overloads separated by spaces, best first: result '=' arguments, in
 // letters f c p v n m s (float color point vector normal matrix string), x = void (result only),

@@ -54,11 +54,12 @@ constexpr OptionalParameter kOptionalParameters[] = {
     {"source", kAny, "shadow"},  // four points
     {"source", kAny, "areashadow", false, kHint},
     {"gapbias", kNumber, "areashadow", false, ""},
-    // Integrators: one sample of each light leaves nothing to weigh.
-    {"mis", kNumber, "directlighting", false, kHint},
-    {"diffusemis", kNumber, "directlighting", false, kHint},
-    {"heuristic", kText, "directlighting", false, kHint},
-    {"integrationdomain", kText, "directlighting indirectspecular", false, kHint},
+    // Integrators.
+    {"mis", kNumber, "directlighting"},
+    {"diffusemis", kNumber, "directlighting"},
+    {"heuristic", kText, "directlighting"},
+    {"integrationdomain", kText, "directlighting"},
+    {"integrationdomain", kText, "indirectspecular", false, kHint},
     {"lightgroups", kAny, "directlighting", false, ""},
     {"groupeddiffuseresults", kAny, "directlighting", false, ""},
     {"groupedspecularresults", kAny, "directlighting", false, ""},

@@ -41,6 +41,9 @@ bool is_gather_output(std::string_view name);
 // illuminance(..., "light:falloff", x): a parameter of the light.
 bool is_light_output(std::string_view name);
 
+// illuminance(..., "recordset", samplinglights(..)): of our own headers.
+inline constexpr std::string_view kRecordSetPair = "recordset";
+
 // What an optional parameter that Kinora knows takes: String or Float; Invalid where anything goes
 // and for names it does not know.
 BaseType option_type(std::string_view name);

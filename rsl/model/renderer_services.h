@@ -19,7 +19,10 @@ enum LightColumn {
     kLightCl = 3,
     kLightOl = 6,
     kLightLit = 9,
-    kLightMessages = 10,
+    // Of a sample of a light: how dense its light's samples are about L, by solid angle: their
+    // number times the pdf. 0 where there is no sample, and in all other records.
+    kLightDensity = 10,
+    kLightMessages = 11,
     // No column of a record, but an output of light kernels: the angle, radians, between the axis
     // of solar and the side of the cone that light comes from.
     kLightSpread = 255
@@ -32,9 +35,14 @@ enum LightUniform {
     kLightNondiffuse = 2,   // the light's __nondiffuse, 0 if it has none
     kLightNonspecular = 3,  // the light's __nonspecular, 0 if it has none
     kLightNumber = 4,       // int: which light it is, for QueryKind::Light
-    kLightUniforms = 5      // then one int for each of LoweredShader::light_messages: nonzero
+    kLightHandle = 5,       // int: the first record of the light in set 0, which is its handle
+    kLightSampled = 6,      // int: not 0 where the record is one of several samples of the light
+    kLightUniforms = 7      // then one int for each of LoweredShader::light_messages: nonzero
                             // where the light has that parameter
 };
+
+// What a light with sample methods is asked for (the service "samplewish").
+enum class SampleWish : int32_t { Generate = 0, Evaluate = 1 };
 
 // An ambient record has no direction: it is seen by ambient() only, never by illuminance.
 enum LightKind { kLightAmbient = 0, kLightIlluminate = 1, kLightSolar = 2 };

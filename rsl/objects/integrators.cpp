@@ -1,11 +1,15 @@
 // rsl/objects/integrators.cpp: directlighting() and indirectspecular() of a class.
 #include "rsl/objects/integrators.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
 #include "rsl/objects/build_tree.h"
+#include "rsl/objects/light_samples.h"
 #include "rsl/syntax/ast_parts.h"
 #include "rsl/syntax/copy_tree.h"
 
@@ -17,9 +21,10 @@ namespace {
 struct Integrator {
     std::string_view name;
     std::string_view function;  // with "_of" of another shader, "_among" of listed lights, and
-                                // "_keeping" where "materialsamples" are kept
-    std::string_view method;   // of the class, which the functions call
-    size_t pairs;              // where the pairs begin
+                                // "_keeping" where "materialsamples" are kept, or "_lights" where
+                                // the class has none
+    std::string_view method;    // of the class, which the functions call
+    size_t pairs;               // where the pairs begin
 };
 constexpr Integrator kIntegrators[] = {
     {"directlighting", "integrate_direct", "evaluateSamples", 2},
@@ -36,6 +41,11 @@ constexpr struct {
                 {"irradianceresult", 2},
                 {"unshadoweddiffuseresult", 3, false},
                 {"unshadowedspecularresult", 4, false}};
+// What decides how directlighting() weighs, in the order of the functions' parameters.
+constexpr std::string_view kWeighing[] = {"mis", "diffusemis", "heuristic"};
+constexpr std::string_view kHeuristics[] = {"veachpower2", "power", "balance"};
+constexpr std::string_view kDomains[] = {"hemisphere", "sphere"};
+
 constexpr std::string_view kUnwanted = "unwanted result";  // a name that no source can have
 
 // Calls f with each expression below, operands before what holds them.
@@ -66,6 +76,8 @@ const CallExpr* call_of_getlights(const Expr* e) {
 struct IntegratorArguments {
     std::vector<Expr*> hints;  // names and values of all others
     std::vector<Expr*> results{std::size(kResults)};
+    std::array<Expr*, std::size(kWeighing)> weighing{};
+    Expr* domain = nullptr;
     Expr* samples = nullptr;
     Expr* maxdist = nullptr;
 };
@@ -104,14 +116,7 @@ class ClassIntegrators {
         return reporter_.report(info, span.where, token.macro, token.spelling, args...);
     }
 
-    // Of the form (string what; output __radiancesample samples[]).
-    bool has(std::string_view method) const {
-        return std::any_of(class_.methods.begin(), class_.methods.end(), [&](const Function* f) {
-            return f->name == method && f->parameters.size() == 2 &&
-                   f->parameters[0]->type == Type{BaseType::String, -1} &&
-                   f->parameters[1]->structure && f->parameters[1]->type.is_array();
-        });
-    }
+    bool has(std::string_view method) const { return has_sample_method(class_, method); }
 
     // Whether the expression is of type shader.
     bool is_handle(const Expr& e) const {
@@ -165,28 +170,78 @@ class ClassIntegrators {
         std::string function(row.function);
         if (!own) args.push_back(call.args[0]), function += "_of";
         bool direct = row.pairs == 2;
+        const bool keeps = given.samples && (!own || has("generateSamples"));
         if (direct) {
             Expr* category = category_of(*call.args[1]);
             if (!category && !is_list(*call.args[1]))
                 return report(Code::RSL_HANDLE_WANTED, call.args[1]->span).help =
                            "the lights are a list: shader lights[] = getlights();",
-                       false;
+                                                       false;
             if (!category) args.push_back(call.args[1]), function += "_among";
-            args.push_back(make.call(row.name, given.hints));
+            args.push_back(hints_of(given, make));
             args.push_back(category ? category : make.text(""));
             args.push_back(make.number(method != "specularlighting"));
             args.push_back(make.number(method != "diffuselighting"));
             for (Expr* result : given.results)
                 args.push_back(result ? result : make.variable(kUnwanted));
+            args.push_back(given.weighing[0] ? given.weighing[0] : make.number(1));
+            args.push_back(given.weighing[1] ? given.weighing[1] : make.number(0));
+            args.push_back(
+                make.call("misheuristic",
+                          {given.weighing[2] ? given.weighing[2] : make.text(kHeuristics[0])}));
         } else {
             args.push_back(make.call(row.name, given.hints));
             args.push_back(given.maxdist ? given.maxdist : make.number(1e30));
         }
-        bool keeps = given.samples && (!own || has("generateSamples"));
         if (keeps) args.push_back(given.samples);
+        const bool none = direct && own && !has("generateSamples");
         call.args = ast_.arena.copy(args);
-        call.name = bound_name(function + (keeps ? "_keeping" : ""), row);
-        if (!direct) bound_name(function + "_keeping", row);
+        call.name = bound_name(function + (keeps ? "_keeping" : none ? "_lights" : ""), row);
+        return true;
+    }
+
+    // The call that reports them, and tells the renderer the lights' domain.
+    Expr* hints_of(const IntegratorArguments& given, TreeBuilder& make) {
+        Expr* hints = make.call("directlighting", given.hints);
+        if (!given.domain) return hints;
+        return make.binary(Op::Add, hints, make.call("samplingdomain", {given.domain}));
+    }
+
+    // False where a literal is none of these; what else it may be is known when the shader runs.
+    bool is_among(const Integrator& row, std::string_view pair, const Expr& value,
+                  std::span<const std::string_view> words) {
+        const auto* text = as_if<StringExpr>(&value);
+        if (!text || std::ranges::count(words, text->value)) return true;
+        report(Code::RSL_PAIR_VALUE, value.span, pair, row.name, text->value,
+               fmt::format("{}", fmt::join(words, " or ")));
+        return false;
+    }
+    bool is_strategy(const Integrator& row, std::string_view pair, const Expr& value) {
+        const auto* number = as_if<NumberExpr>(&value);
+        const bool fits = !number || number->value == 0 || number->value == 1 ||
+                          (number->value == 2 && pair == "mis");
+        if (!fits)
+            report(Code::RSL_PAIR_VALUE, value.span, pair, row.name, number->value,
+                   pair == "mis" ? "0 (lights), 1 (both) or 2 (material)" : "0 or 1");
+        return fits;
+    }
+
+    // Whether it is one of those that decide how samples are weighed; `*fits`: false after a
+    // finding.
+    bool weighing(const Integrator& row, std::string_view name, Expr* value,
+                  IntegratorArguments* given, bool* fits) {
+        const size_t at = size_t(std::ranges::find(kWeighing, name) - std::begin(kWeighing));
+        if (name == "integrationdomain") {
+            *fits = is_among(row, name, *value, kDomains);
+            if (row.pairs == 2) given->domain = value;
+            return row.pairs == 2;
+        }
+        const bool text = value->kind == ExprKind::String, number = value->kind == ExprKind::Number;
+        if (row.pairs != 2 || at == std::size(kWeighing)) return false;
+        if (name == "heuristic" ? number : text) return false;  // the hints' finding
+        *fits = name == "heuristic" ? is_among(row, name, *value, kHeuristics)
+                                    : is_strategy(row, name, *value);
+        given->weighing[at] = value;
         return true;
     }
 
@@ -201,7 +256,9 @@ class ClassIntegrators {
                 given->samples = value;
             else if (row.pairs == 1 && name->value == "maxdist")
                 given->maxdist = value;
-            else if (row.pairs == 1 || !result(name->value, *value, given))
+            else if (bool fits = true; weighing(row, name->value, value, given, &fits) || !fits) {
+                if (!fits) return false;
+            } else if (row.pairs == 1 || !result(name->value, *value, given))
                 given->hints.insert(given->hints.end(), {call.args[k], value});
         }
         return true;
@@ -261,11 +318,21 @@ class ClassIntegrators {
         return givers == 1 ? giver : nullptr;
     }
 
-    // The name of a function of integrators.h in the class. Findings print it up to the space.
+    // The name of a function of integrators.h in the class, which gets what it calls too. Findings
+    // print it up to the space.
     std::string_view bound_name(const std::string& function, const Integrator& row) {
         std::string_view& name = names_[ast_.arena.copy(function)];
-        if (name.empty()) name = ast_.arena.copy(fmt::format("{} {}", row.name, function));
-        return name;
+        if (!name.empty()) return name;
+        name = ast_.arena.copy(fmt::format("{} {}", row.name, function));
+        const std::string_view bound = name;
+        auto called = [&](Expr& e) {
+            const auto* call = as_if<CallExpr>(&e);
+            if (call && call->name.starts_with("integrate_"))
+                bound_name(std::string(call->name), row);
+        };
+        for (Function* f : functions_)
+            if (f->name == function) each_expr(static_cast<Stmt*>(f->body), called);
+        return bound;
     }
 
     // The functions that are called become methods.
@@ -295,7 +362,7 @@ class ClassIntegrators {
     Reporter& reporter_;
     ShaderDefinition& shader_;
     ClassDefinition& class_;
-    std::span<Function* const> functions_;  // of its source
+    std::span<Function* const> functions_;                // of its source
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
     std::set<std::string_view> said_;
     std::set<std::string_view> handles_, lists_;  // variables of type shader, and shader[]
@@ -308,8 +375,7 @@ namespace {
 // Those that no class has adopted are not looked at.
 void drop_integrators(std::vector<Function*>& functions) {
     std::erase_if(functions, [](const Function* f) {
-        return f->name.find(' ') != f->name.npos || f->name.starts_with("integrate_direct") ||
-               f->name.starts_with("integrate_indirect");
+        return f->name.find(' ') != f->name.npos || f->name.starts_with("integrate_");
     });
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "rsl/objects/expand.h"
+#include "rsl/objects/light_samples.h"
 
 namespace kinora::rsl {
 
@@ -84,6 +85,7 @@ class Pipeline {
         if (shader_.only_displaces) return ShaderKind::Displacement;
         for (const auto& row : kKinds)
             if (has(row.method)) return row.kind;
+        if (has(kLightSamples)) return ShaderKind::Light;
         return {};
     }
 
@@ -124,8 +126,13 @@ class Pipeline {
         return false;
     }
 
-    // A light without illuminate and solar that sets L shines from Ps - L.
+    // A light with sample methods sends its samples. One without illuminate and solar that sets L
+    // shines from Ps - L.
     void light() {
+        if (has(kLightSamples)) {
+            drop_formals("light", {"L", "Cl", "Ol"});
+            return call(kLightSamples, {});
+        }
         const Function* method = find("light");
         bool aims = has_words(*method, {"illuminate", "solar"}, Punct::LeftParen);
         bool sets_L = method->parameters.size() > 1 &&
@@ -212,10 +219,10 @@ class Pipeline {
         if (!has("opacity")) return shading();
         out_.push_back(opacity_call());
         std::vector<Stmt*> rest = part([&] { shading(); });
-        IfStmt* seen =
-            make_.branch(make_.binary(Op::NotEqual, make_.call("seenopacity", {make_.variable("Oi")}),
-                                      make_.number(0)),
-                         std::move(rest));
+        IfStmt* seen = make_.branch(
+            make_.binary(Op::NotEqual, make_.call("seenopacity", {make_.variable("Oi")}),
+                         make_.number(0)),
+            std::move(rest));
         seen->no = make_.assign(make_.variable("Oi"), make_.number(0));
         seen->behind_opacity = true;
         out_.push_back(seen);
@@ -332,29 +339,29 @@ class Pipeline {
             back.push_back(make_.effect(
                 make_.call("displacementvalue", {make_.text(rest), make_.variable(name)})));
             back.push_back(make_.assign(
-                make_.variable(name),
-                make_.call(move, {make_.text("object"), make_.text("current"),
-                                  make_.variable(name)})));
+                make_.variable(name), make_.call(move, {make_.text("object"), make_.text("current"),
+                                                        make_.variable(name)})));
         }
         out_.push_back(make_.declare(kept));
         out_.push_back(make_.branch(displaced_is(1), std::move(back)));
     }
 
-    // Where the vertices have moved, P and N are given. Else the normal is bent, as by a displacement
-    // that is joined with a surface: the points stay.
+    // Where the vertices have moved, P and N are given. Else the normal is bent, as by a
+    // displacement that is joined with a surface: the points stay.
     void displace() {
         call("displacement", {"P", "N"});
         auto is = [&](Op op, std::string_view name) {
             return make_.binary(op, make_.variable(name), given(name));
         };
         Expr* moved = make_.call("calculatenormal", {make_.variable("P")});
-        IfStmt* normal = make_.branch(
-            make_.binary(Op::And, is(Op::NotEqual, "P"), is(Op::Equal, "N")),
-            {make_.assign(make_.variable("N"), make_.call("normalize", {moved}))});
+        IfStmt* normal =
+            make_.branch(make_.binary(Op::And, is(Op::NotEqual, "P"), is(Op::Equal, "N")),
+                         {make_.assign(make_.variable("N"), make_.call("normalize", {moved}))});
         out_.push_back(
             make_.branch(displaced_is(0), {normal, make_.assign(make_.variable("P"), given("P"))}));
-        out_.push_back(make_.branch(displaced_is(1), {make_.assign(make_.variable("P"), given("P")),
-                                                      make_.assign(make_.variable("N"), given("N"))}));
+        out_.push_back(
+            make_.branch(displaced_is(1), {make_.assign(make_.variable("P"), given("P")),
+                                           make_.assign(make_.variable("N"), given("N"))}));
     }
     Expr* given(std::string_view name) {
         return make_.variable(ast_.arena.copy("pipeline->" + std::string(name)));

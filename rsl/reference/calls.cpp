@@ -32,7 +32,7 @@ bool Reference<Real>::may_call(const Function& f) {
 template <class Real>
 void Reference<Real>::run_again(const Function& f) {
     calls_left_ = call_depth_ == 0 ? kMaxRecursiveCalls - 1 : calls_left_ - 1;
-    for (int32_t turn : loop_counters) inline_path = inline_path * 31 + uint32_t(turn);
+    for (int32_t turn : loop_counters) inlined.path = inlined.path * 31 + uint32_t(turn);
     std::vector<int32_t> counters = std::exchange(loop_counters, {});
     ++call_depth_;
     block(f.body->body);
@@ -80,13 +80,16 @@ auto Reference<Real>::call_function(const CallExpr& e) -> Item {
             variables_[f.parameters[k]] = values[k];
     }
     stands_for_ = std::move(stand_for);
-    uint32_t path = inline_path;
-    inline_path = inline_path * 31 + e.site + 1;
+    const uint32_t path = inlined.path;
+    inlined.path = inlined.path * 31 + e.site + 1;
+    const bool stratified =
+        std::exchange(inlined.stratifies, inlined.stratifies || is_sample_method(f.name));
     Item outer = std::exchange(returned_, Item(f.result.base));
     const Function* caller = std::exchange(function_, &f);
     f.recursive ? run_again(f) : void(block(f.body->body));
     function_ = caller;
-    inline_path = path;
+    inlined.path = path;
+    inlined.stratifies = stratified;
     Item value = std::exchange(returned_, outer);
     std::vector<Storage> outputs;
     for (const Symbol* parameter : f.parameters) outputs.push_back(variables_[parameter]);

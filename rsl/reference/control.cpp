@@ -141,6 +141,16 @@ static bool matches(const ReferenceLight& light, const std::string& category) {
     return false;
 }
 
+namespace {
+
+const Expr* record_set(const IlluminanceStmt& stmt) {
+    for (size_t k = 1; k < stmt.pairs.size(); k += 2)
+        if (pair_name(stmt.pairs, k) == kRecordSetPair) return stmt.pairs[k];
+    return nullptr;
+}
+
+}  // namespace
+
 template <class Real>
 RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
     std::string category = stmt.category ? expr(*stmt.category).text() : "";
@@ -152,9 +162,13 @@ RefFlow Reference<Real>::illuminance(const IlluminanceStmt& stmt) {
     bool leave = false;
     loop_counters.push_back(0);
     std::span<const ReferenceLight> lights = in.lights;
-    if (in.lights_at)
+    if (const Expr* set = record_set(stmt)) {
+        const double number = double(expr(*set).c[0].x);
+        lights = in.lights_of ? (*in.lights_of)(number) : std::span<const ReferenceLight>();
+    } else if (in.lights_at) {
         lights = (*in.lights_at)(
             {double(position.c[0].x), double(position.c[1].x), double(position.c[2].x)});
+    }
     for (size_t k = 0; k < lights.size() && !leave; ++k) {
         const ReferenceLight& l = lights[k];
         loop_counters.back() = int32_t(k);

@@ -350,7 +350,7 @@ void Reference<Real>::run_layer(const Layer& next) {
     globals_ = std::move(kept);
     layer = &next;
     layer_index = size_t(&next - layers_.data());
-    inline_path = inline_path * 31 + 7;
+    inlined.path = inlined.path * 31 + 7;
     if (shader.kind == ShaderKind::Light)
         for (Global id : {Global::L, Global::Cl, Global::Ol})
             globals_[id] = Item(global_info(id).type.base);

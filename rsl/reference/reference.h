@@ -27,8 +27,10 @@ struct ReferenceLight {
     bool lit = true;
     // What lightsource() finds: numbers by name; it asks for so many.
     std::vector<std::pair<std::string, std::vector<double>>> messages;
-    int number = 0;  // for observers
-    int which = 0;   // kLightNumber
+    int number = 0;        // for observers
+    int which = 0;         // kLightNumber
+    bool sampled = false;  // kLightSampled
+    double density = 0;    // kLightDensity
     // Whether it is of a category that illuminance names; else by `categories`.
     std::vector<std::pair<std::string, bool>> known_categories;
 };
@@ -60,6 +62,7 @@ using ReferenceService =
 
 using ReferenceLightsAt =
     std::function<std::span<const ReferenceLight>(std::array<double, 3> position)>;
+using ReferenceLightsOf = std::function<std::span<const ReferenceLight>(double set)>;
 
 // The point, by the names of kernel inputs ("P.x", "dPdu.x", "param:0:Kd", "space:world:to_current:
 // 03"): what is missing is 0, a missing space is the identity.
@@ -68,6 +71,8 @@ struct ReferenceInputs {
     std::vector<ReferenceLight> lights;  // at any position asked for, but for `lights_at`
     // Those of illuminance() at a position in "current". Null: `lights`.
     const ReferenceLightsAt* lights_at = nullptr;
+    // Those of a set that the service "samplinglights" gave. Null: none.
+    const ReferenceLightsOf* lights_of = nullptr;
     ReferenceService service;
     // Coordinate systems beside the standard ones; any other name means "shader". Null: all exist.
     const std::vector<std::string>* spaces = nullptr;

@@ -139,7 +139,10 @@ class Reference {
     int light_number = 0;                   // of it among those at the position
     bool in_solar = false;                  // inside a light's solar
     std::vector<int32_t> loop_counters;
-    uint32_t inline_path = 0;
+    struct {
+        uint32_t path = 0;
+        bool stratifies = false;  // inside a sample method
+    } inlined;
 
     Item& global(Global id);
     // Notes a decision that rounding may turn, and gives it back.

@@ -21,6 +21,7 @@ constexpr std::pair<std::string_view, std::string_view> kHeadersByWord[] = {
     {"filterregion", "filterregion.h"},
     {"directlighting", "integrators.h"},
     {"indirectspecular", "integrators.h"},
+    {"evaluateSamples", "lightsamples.h"},
     {"getlights", "getlights.h"},
 };
 

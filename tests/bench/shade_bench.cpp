@@ -52,8 +52,8 @@ class JitLights {
     jit::Record record(Run& run, size_t g, int kind) {
         auto columns = arena_.allocate_span<const float*>(rsl::kLightMessages);
         // What is no output of the kernel is 0 everywhere, and lit is 1.
-        const char* names[] = {"L.x",  "L.y",  "L.z",  "Cl.r", "Cl.g",
-                               "Cl.b", "Ol.r", "Ol.g", "Ol.b", "lit"};
+        const char* names[] = {"L.x",  "L.y",  "L.z",  "Cl.r", "Cl.g",   "Cl.b",
+                               "Ol.r", "Ol.g", "Ol.b", "lit",  "density"};
         for (size_t k = 0; k < std::size(names); ++k) {
             auto output = run.out.find(std::string("light:0:") + names[k]);
             bool missing = output == run.out.end();
@@ -62,6 +62,7 @@ class JitLights {
         auto uniforms = arena_.allocate_span<float>(rsl::kLightUniforms);
         uniforms[rsl::kLightKind] = jit::float_of(kind);
         uniforms[rsl::kLightCategories] = 0;
+        uniforms[rsl::kLightHandle] = uniforms[rsl::kLightSampled] = 0;
         uniforms[rsl::kLightNondiffuse] = uniforms[rsl::kLightNonspecular] = 0;
         return {columns.data(), uniforms.data()};
     }

@@ -30,6 +30,10 @@ void texture_service(const jit::ServiceCall& call) {
 // Of what is not looked up all results are 0: of gather the record set 0.
 constexpr ServiceTable kServiceTable = {
     .lights = answer_zeros<Service::lights>,
+    .samplinglights = answer_zeros<Service::samplinglights>,
+    .samplewish = answer_zeros<Service::samplewish>,
+    .lightsample = answer_zeros<Service::lightsample>,
+    .stratified = answer_zeros<Service::stratified>,
     .texture = texture_service,
     .environment = texture_service,
     .shadow = answer_zeros<Service::shadow>,

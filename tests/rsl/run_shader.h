@@ -175,6 +175,7 @@ class RunShader {
                 columns[kLightOl + c] = column(light.Ol[c], 256);
             }
             columns[kLightLit] = column(std::bit_cast<float>(light.lit), 256);
+            columns[kLightDensity] = column(0, 256);
             for (size_t c = 0; c < light.columns.size(); ++c)
                 columns[c] = column_of(light.columns[c]);
             for (size_t c = 0; c < kMessages; ++c)
@@ -186,6 +187,8 @@ class RunShader {
             uniforms[kLightNondiffuse] = light.nondiffuse;
             uniforms[kLightNonspecular] = light.nonspecular;
             uniforms[kLightNumber] = std::bit_cast<float>(int32_t(k));
+            uniforms[kLightHandle] = std::bit_cast<float>(int32_t(k));
+            uniforms[kLightSampled] = 0;
             for (size_t c = 0; c < kMessages; ++c)
                 uniforms[kLightUniforms + c] = std::bit_cast<float>(light.messages.empty() ? 0 : 1);
             list[k] = {columns.data(), uniforms.data()};

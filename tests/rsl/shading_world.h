@@ -66,6 +66,10 @@ inline void gather_nothing(const jit::ServiceCall& call) {
 // Of the others all is 0, for kernels and the reference.
 inline constexpr ServiceTable kSmoothWorld = {
     .lights = answer_zeros<Service::lights>,
+    .samplinglights = answer_zeros<Service::samplinglights>,
+    .samplewish = answer_zeros<Service::samplewish>,
+    .lightsample = answer_zeros<Service::lightsample>,
+    .stratified = answer_zeros<Service::stratified>,
     .texture = answer_smoothly<Service::texture>,
     .environment = answer_smoothly<Service::environment>,
     .shadow = answer_smoothly<Service::shadow>,

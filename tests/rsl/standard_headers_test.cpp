@@ -177,8 +177,9 @@ const HeaderRow kHeaders[] = {
      "stdrsl_SphericalHarmonic a, b; color k[9]; float f[4]; a->createFromArray(k);"
      "b->createFromArray(f); a->rotate(\"world\"); Ci = a->convolve(b, 0) + a->evaluate(vector "
      "N);"},
-    {"getlights.h", "", "Ci = 1;"},    // its functions take lights: objects/lights_test.cpp
-    {"integrators.h", "", "Ci = 1;"},  // its functions are of classes: tests/rsl/classes
+    {"getlights.h", "", "Ci = 1;"},     // its functions take lights: objects/lights_test.cpp
+    {"integrators.h", "", "Ci = 1;"},   // its functions are of classes: tests/rsl/classes
+    {"lightsamples.h", "", "Ci = 1;"},  // of lights: tests/runtime/sampled_lights_test.cpp
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"
      "Ci = blend(Cs, Os, s) + lerp(0, 1, s) + boxstep(0.2, 0.4, s) + union(s, t) + complement(s);"

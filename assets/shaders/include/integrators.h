@@ -1,6 +1,11 @@
 // integrators.h: light of a class by methods evaluateSamples() and generateSamples(), its own or
 // those of another shader. A source that calls directlighting() or indirectspecular() has it without
 // an #include; these functions become methods of its class.
+//
+// E. Veach and L. Guibas 1995: a direction that both a light and the material may choose is weighed
+// by how dense the samples of each are about it. Cl of a record is radiance / (PI x density), so
+// that a Lambert surface gives the same by diffuse() and by directlighting(). An old light of Cl is
+// one direction that no material chooses: its weight is 1.
 #ifndef KINORA_INTEGRATORS_H
 #define KINORA_INTEGRATORS_H
 
@@ -13,35 +18,81 @@ float integrate_listed(shader list[]; shader one;) {
     return 0;
 }
 
-// One sample for each light of the category that passes the test: what its light() sends, of weight
-// 1. There is nothing to weigh, so the hints of directlighting(), which come behind what is special
-// to a form, change nothing. OF: nothing, or the other shader and an arrow.
-#define KINORA_DIRECT(NAME, FIRST_FORMALS, LAST_FORMALS, OF, BEFORE, TEST)                     \
-    color NAME(FIRST_FORMALS color hints; string category; uniform float diffuse_part;         \
+// Of a sample whose own kind is `own` dense about it, and the other kind `other`.
+float integrate_weight(float own; float other; float power;) {
+    if (own <= 0) return 0;
+    float share = other / own;
+    return 1 / (1 + (power == 1 ? share : share * share));
+}
+
+// The material's samples of a lobe, unless some are there.
+void integrate_choose(string what; float wanted; output __radiancesample samples[];) {
+    if (wanted != 0 && arraylength(samples) == 0) generateSamples(what, samples);
+}
+void integrate_choose_of(shader which; string what; float wanted;
+                         output __radiancesample samples[];) {
+    if (wanted != 0 && arraylength(samples) == 0 && hasmethod(which, "generateSamples") == 1)
+        which->generateSamples(what, samples);
+}
+
+// A light's sample through one lobe: what it adds, weighed against COUNT samples of the material.
+// mis: 0 lights alone, 1 both, 2 the material alone. A density below 0: a light without samples.
+#define KINORA_LIGHT_SAMPLE(OF, WHAT, COUNT, RESULT)                                           \
+    one[0]->reinit();                                                                          \
+    one[0]->setLightSample(PI * Cl * max(1e-30, abs(density)), abs(density), towards,          \
+                           length(L));                                                         \
+    OF evaluateSamples(WHAT, one);                                                             \
+    weight = 1;                                                                                \
+    if (density >= 0 && COUNT > 0)                                                             \
+        weight = mis == 2 ? 0                                                                  \
+                          : integrate_weight(density, COUNT * one[0]->materialPdf, power);     \
+    RESULT += weight * PI * Cl * one[0]->materialResponse;
+
+// The material's samples through one lobe: each with what lights with sample methods send there.
+#define KINORA_MATERIAL_SAMPLES(SAMPLES, COUNT, RESULT, TEST)                                  \
+    for (i = 0; i < COUNT; i += 1) {                                                           \
+        vector along = SAMPLES[i]->direction;                                                  \
+        density = COUNT * SAMPLES[i]->materialPdf;                                             \
+        if (density > 0 && along . along > 0) {                                                \
+            color arriving = 0;                                                                \
+            illuminance(category, P, "recordset",                                              \
+                        samplinglights(along, density, mis == 2 ? 0 : power)) {                \
+                if (TEST) arriving += Cl;                                                      \
+            }                                                                                  \
+            RESULT += SAMPLES[i]->materialResponse / density * arriving;                       \
+        }                                                                                      \
+    }
+
+// Samples of each light of the category that passes the test, and the material's: `gloss` and, for
+// "diffusemis", `dull`, which are there already. OF: nothing, or the other shader and an arrow.
+#define KINORA_DIRECT(NAME, FORMALS, OF, TEST)                                                 \
+    color NAME(FORMALS color hints; string category; uniform float diffuse_part;               \
                uniform float specular_part; output color diffuseresult;                        \
                output color specularresult; output color irradianceresult;                     \
-               output color unshadoweddiffuse; output color unshadowedspecular;                \
-               LAST_FORMALS) {                                                                 \
+               output color unshadoweddiffuse; output color unshadowedspecular; float mis;     \
+               float power; output __radiancesample dull[]; output __radiancesample gloss[];) { \
         color matte = 0, shine = 0, irradiance = 0;                                            \
+        float i, weight = 1, density = -1, sampled = 0;                                        \
+        float dulls = mis > 0 && diffuse_part != 0 ? arraylength(dull) : 0;                    \
+        float glosses = mis > 0 && specular_part != 0 ? arraylength(gloss) : 0;                \
         __radiancesample one[1];                                                               \
-        BEFORE                                                                                 \
         illuminance(category, P) {                                                             \
             if (TEST) {                                                                        \
                 vector towards = normalize(L);                                                 \
+                density = lightdensity();                                                      \
+                sampled = max(sampled, density < 0 ? 0 : 1);                                   \
                 irradiance += Cl * max(0, towards . normalize(N));                             \
                 if (diffuse_part != 0) {                                                       \
-                    one[0]->reinit();                                                          \
-                    one[0]->setLightSample(Cl, 1, towards, length(L));                         \
-                    OF evaluateSamples("diffuse", one);                                        \
-                    matte += Cl * one[0]->materialResponse;                                    \
+                    KINORA_LIGHT_SAMPLE(OF, "diffuse", dulls, matte)                           \
                 }                                                                              \
                 if (specular_part != 0) {                                                      \
-                    one[0]->reinit();                                                          \
-                    one[0]->setLightSample(Cl, 1, towards, length(L));                         \
-                    OF evaluateSamples("specular", one);                                       \
-                    shine += Cl * one[0]->materialResponse;                                    \
+                    KINORA_LIGHT_SAMPLE(OF, "specular", glosses, shine)                        \
                 }                                                                              \
             }                                                                                  \
+        }                                                                                      \
+        if (sampled > 0) {                                                                     \
+            KINORA_MATERIAL_SAMPLES(dull, dulls, matte, TEST)                                  \
+            KINORA_MATERIAL_SAMPLES(gloss, glosses, shine, TEST)                               \
         }                                                                                      \
         diffuseresult = matte;                                                                 \
         specularresult = shine;                                                                \
@@ -50,23 +101,54 @@ float integrate_listed(shader list[]; shader one;) {
         unshadowedspecular = shine;                                                            \
         return matte + shine;                                                                  \
     }
-// Leaves the material's samples to a later indirectspecular(); those that are there are kept.
-#define KINORA_DIRECT_FORMS(NAME, KEEPING, FORMALS, OF, TEST)                                  \
-    KINORA_DIRECT(NAME, FORMALS, , OF, , TEST)                                                 \
-    KINORA_DIRECT(KEEPING, FORMALS, output __radiancesample materialsamples[];, OF,            \
-                  if (arraylength(materialsamples) == 0)                                       \
-                      OF generateSamples("specular", materialsamples);                         \
-                  , TEST)
-KINORA_DIRECT_FORMS(integrate_direct, integrate_direct_keeping, , , 1 != 0)
-KINORA_DIRECT_FORMS(integrate_direct_among, integrate_direct_among_keeping, shader among[];, ,
+
+// With material samples, with those that the caller keeps, and of a material that has none.
+#define KINORA_FORMALS                                                                         \
+    color hints; string category; uniform float diffuse_part; uniform float specular_part;     \
+    output color diffuseresult; output color specularresult; output color irradianceresult;    \
+    output color unshadoweddiffuse; output color unshadowedspecular; float mis;                \
+    float diffusemis; float power;
+#define KINORA_ARGUMENTS                                                                       \
+    hints, category, diffuse_part, specular_part, diffuseresult, specularresult,               \
+        irradianceresult, unshadoweddiffuse, unshadowedspecular, mis, power, dull, gloss
+#define KINORA_DIRECT_FORMS(NAME, FORMALS, GIVEN, OF, CHOOSE, TEST)                            \
+    KINORA_DIRECT(NAME##_by, FORMALS, OF, TEST)                                                \
+    color NAME##_keeping(FORMALS KINORA_FORMALS output __radiancesample gloss[];) {            \
+        __radiancesample dull[];                                                               \
+        CHOOSE("diffuse", mis * diffusemis * diffuse_part, dull);                              \
+        CHOOSE("specular", 1, gloss);                                                          \
+        return NAME##_by(GIVEN KINORA_ARGUMENTS);                                              \
+    }                                                                                          \
+    color NAME(FORMALS KINORA_FORMALS) {                                                       \
+        __radiancesample dull[], gloss[];                                                      \
+        CHOOSE("diffuse", mis * diffusemis * diffuse_part, dull);                              \
+        CHOOSE("specular", mis * specular_part, gloss);                                        \
+        return NAME##_by(GIVEN KINORA_ARGUMENTS);                                              \
+    }                                                                                          \
+    color NAME##_lights(FORMALS KINORA_FORMALS) {                                              \
+        __radiancesample dull[], gloss[];                                                      \
+        return NAME##_by(GIVEN KINORA_ARGUMENTS);                                              \
+    }
+#define KINORA_OWN(WHAT, WANTED, SAMPLES) integrate_choose(WHAT, WANTED, SAMPLES)
+#define KINORA_OTHER(WHAT, WANTED, SAMPLES) integrate_choose_of(which, WHAT, WANTED, SAMPLES)
+#define KINORA_COMMA ,
+KINORA_DIRECT_FORMS(integrate_direct, , , , KINORA_OWN, 1 != 0)
+KINORA_DIRECT_FORMS(integrate_direct_among, shader among[];, among KINORA_COMMA, , KINORA_OWN,
                     integrate_listed(among, lighthandle()) != 0)
-KINORA_DIRECT_FORMS(integrate_direct_of, integrate_direct_of_keeping, shader which;, which->,
+KINORA_DIRECT_FORMS(integrate_direct_of, shader which;, which KINORA_COMMA, which->, KINORA_OTHER,
                     1 != 0)
-KINORA_DIRECT_FORMS(integrate_direct_of_among, integrate_direct_of_among_keeping,
-                    shader which; shader among[];, which->,
+KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
+                    which KINORA_COMMA among KINORA_COMMA, which->, KINORA_OTHER,
                     integrate_listed(among, lighthandle()) != 0)
+#undef KINORA_OWN
+#undef KINORA_OTHER
+#undef KINORA_COMMA
 #undef KINORA_DIRECT_FORMS
+#undef KINORA_ARGUMENTS
+#undef KINORA_FORMALS
 #undef KINORA_DIRECT
+#undef KINORA_MATERIAL_SAMPLES
+#undef KINORA_LIGHT_SAMPLE
 
 // The mean over the samples of response / pdf x traced light. A pdf or a direction of 0: no ray.
 #define KINORA_INDIRECT(NAME, FORMALS, OF)                                                     \

@@ -16,7 +16,7 @@ void kinora_lobe_as(output stdrsl_SpecularAS lobe; output stdrsl_ShadingContext 
     ctx->setTangents(T);
 }
 
-// Appends samples of the lobe; those below the surface are left out.
+// Appends samples of the lobe.
 void generateSamplesAS(color specular; float count; float eu; float ev; normal N; vector T;
                        vector V; output __radiancesample samples[]) {
     stdrsl_SpecularAS lobe;

@@ -9,25 +9,9 @@
 #include "raytrace/random/series.h"
 #include "runtime/picture/shading/grid.h"
 #include "runtime/picture/shading/light_bindings.h"
+#include "runtime/picture/shading/lit_points.h"
 
 namespace kinora {
-
-// Where light is wanted: points in current space, and in accel space with their error bounds.
-struct LightPoints {
-    size_t count = 0;
-    const float* P[3];
-    const float* N[3];
-    const float* accel[3];
-    const float* error[3];
-    const float* Ng[3];                 // accel space
-    const uint32_t* normals = nullptr;  // Grid::normals of these points
-    const float* rng = nullptr;
-    const raytrace::SampleSeries* series = nullptr;  // where some light has samples
-    const uint32_t* surface = nullptr;               // the surface that is lit, kNone: none
-    const float* zeros = nullptr;                    // a row of them
-    size_t first = 0;  // grid point of element 0: what record columns are relative to
-    bool own = false;  // the grid's points themselves
-};
 
 // One sample of an area light for each of a number of lit points.
 struct LightSamples {

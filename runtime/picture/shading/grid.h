@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jit/ir/kernel_call.h"
+#include "raytrace/random/series.h"
 #include "raytrace/wavefront.h"
 #include "runtime/picture/shading/rays/budget.h"
 #include "runtime/picture/shading/rays/kinds.h"
@@ -16,8 +17,10 @@
 
 namespace kinora {
 
+class LightAnswer;
 class LightShadows;
 class RayNotes;
+struct LightPoints;
 
 inline constexpr size_t kRecordSets = 256;  // handles a grid may hold at once
 inline constexpr size_t kGatherSets = kRecordSets - rsl::kGatherLevels;  // the last ones
@@ -41,9 +44,14 @@ struct Grid : PicturePoints {
     std::span<uint32_t> normals;
     std::span<jit::RecordSet> record_sets;  // [0]: lights at P
     uint32_t next_record_set = 1;
-    int32_t record_group = -1;        // first lane of the group that lights_at served last
-    Arena::Mark record_mark{};        // where its records begin
-    uint32_t record_calls = 0;        // of the group
+    int32_t record_group = -1;      // first lane of the group that lights_at served last
+    Arena::Mark record_mark{};      // where its records begin
+    uint32_t record_calls = 0;      // of the group
+    LightAnswer* answer = nullptr;  // of the light's kernel that runs, if it has sample methods
+    const raytrace::SampleSeries* series = nullptr;  // of the points; null: that of their hits
+    const LightPoints* lit_points = nullptr;         // record set 0 is at these
+    // By light: how many samples each point has in the records made last; null where it has none.
+    std::span<float*> sample_counts;
     LightShadows* shadows = nullptr;  // null inside opacity kernels, which shoot no rays
     // Of each point that may, calls that shot rays which shade what they meet.
     std::span<uint16_t> calls;

@@ -35,6 +35,9 @@ class PictureHost : public SceneHost {
     void indirectdiffuse(const jit::ServiceCall& call) override;
     void gather(const jit::ServiceCall& call) override;
     void raylimit(const jit::ServiceCall& call) override;
+    void stratified(const jit::ServiceCall& call) override;
+    void samplewish(const jit::ServiceCall& call) override;
+    void lightsample(const jit::ServiceCall& call) override;
     void query(const jit::ServiceCall& call) override;
 
   protected:
@@ -48,6 +51,7 @@ class GridHost final : public PictureHost {
     using PictureHost::PictureHost;
     void print(const jit::ServiceCall& call) override;
     void lights(const jit::ServiceCall& call) override;
+    void samplinglights(const jit::ServiceCall& call) override;
     void bake3d(const jit::ServiceCall& call) override;
 };
 
@@ -58,6 +62,7 @@ class NotingHost final : public PictureHost {
     using PictureHost::PictureHost;
     void print(const jit::ServiceCall&) override {}
     void lights(const jit::ServiceCall& call) override;
+    void samplinglights(const jit::ServiceCall& call) override;
     void bake3d(const jit::ServiceCall&) override {}
 };
 

@@ -53,6 +53,7 @@ LightOutputs statement_of(const ShaderInstance& look, size_t index,
     const rsl::LightStatement& from = look.lowered.light_statements[index];
     LightOutputs statement;
     statement.kind = from.kind;
+    statement.sampled = from.sampled;
     auto find = [&](rsl::LightColumn column, int k) {
         return find_output(kernel, rsl::light_key(index, column, k));
     };

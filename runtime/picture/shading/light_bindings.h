@@ -21,7 +21,9 @@ struct LightOutputs {
     rsl::LightKind kind = rsl::kLightAmbient;
     bool casts_shadow = false;
     int L[3], Cl[3], Ol[3], lit = -1;
-    int spread = -1;  // of solar with an angle: light comes from a cone
+    int spread = -1;                          // of solar with an angle: light comes from a cone
+    bool sampled = false;                     // the light has sample methods, and no such columns
+    int end[3] = {-1, -1, -1}, density = -1;  // of such a sample: where its shadow ray ends
 };
 
 // A number of a light that may be animated: in Pose::values, or fixed (`value` is kNone).

@@ -75,21 +75,20 @@ SeenPoints seen_points(const Grid& grid) {
     return points;
 }
 
+// `light_begin`: the first record of the light.
 const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs& statement,
-                             const LightBinding& binding) {
+                             const LightBinding& binding, size_t light_begin) {
     float* uniforms = arena.allocate_span<float>(rsl::kLightUniforms + binding.known.size()).data();
     uniforms[rsl::kLightKind] = jit::float_of(statement.kind);
     uniforms[rsl::kLightCategories] = jit::float_of(binding.categories);
     uniforms[rsl::kLightNondiffuse] = binding.nondiffuse.in(pose);
     uniforms[rsl::kLightNonspecular] = binding.nonspecular.in(pose);
     uniforms[rsl::kLightNumber] = jit::float_of(binding.light);
+    uniforms[rsl::kLightHandle] = jit::float_of(int32_t(light_begin));
+    uniforms[rsl::kLightSampled] = jit::float_of(int32_t(statement.sampled));
     for (size_t m = 0; m < binding.known.size(); ++m)
         uniforms[rsl::kLightUniforms + m] = jit::float_of(binding.known[m]);
     return uniforms;
-}
-
-uint32_t bits(float x) {
-    return uint32_t(jit::bits_of(x));
 }
 
 }  // namespace
@@ -104,6 +103,8 @@ LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
         for (const LightOutputs& statement : bindings_.statements(l)) {
             record_count_ += samples_of(l, statement);
             draws_samples_ |= statement.spread >= 0;
+            draws_samples_ |= statement.sampled;
+            if (statement.sampled) sampling_.push_back(l);
         }
         draws_samples_ |= area_lights_.find(l) != nullptr;
         need_rng_ |= look_of_light(frame, l).lowered.uses_rng;
@@ -136,18 +137,10 @@ void LightRecords::find_present() {
     scene.radius = glm::length(half);
     for (int k = 0; k < 3; ++k)
         scene.half[k] = glm::dot(glm::abs(glm::transpose(current)[k]), half);
+    far_ = 4 * float(scene.radius);  // from any point of the scene
     present_.clear();
     for (size_t l = 0; l < reaches_.size(); ++l)
         if (!reaches_[l].bounded() || reaches(reaches_[l], scene)) present_.push_back(l);
-}
-
-std::vector<size_t> LightRecords::light_of_records() const {
-    std::vector<size_t> lights;
-    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
-        for (const LightOutputs& statement : bindings_.statements(l))
-            lights.insert(lights.end(), samples_of(l, statement), l);
-    }
-    return lights;
 }
 
 size_t LightRecords::most_points() const {
@@ -220,6 +213,9 @@ void LightRecords::run(Grid& grid) {
     }
     at.own = true;
     grid.record_sets[0] = make_records(grid, at);
+    if (sampling_.empty()) return;
+    grid.lit_points = grid.memory.arena.allocate_span<LightPoints>(1).data();
+    *const_cast<LightPoints*>(grid.lit_points) = at;
 }
 
 jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
@@ -230,17 +226,18 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
     Making making{grid, at, arena.allocate_span<jit::Record>(record_count_),
                   arena.allocate_span<SentLight>(record_count_)};
     const Sphere lit = sphere_about(at.P, at.count);
-    // At other points, and within volumes, handles and light_of_records count all lights.
+    // At other points, and within volumes, handles count all lights.
     const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
     for (size_t l : leaves_out ? present_ : every_) {
         const bool seen = bindings_.binding(grid.look->index, l).seen;
         const uint32_t only = frame_.insight.only_light;
         const bool dark = (only != kNone && l != only) || !seen || !reaches(reaches_[l], lit);
         if (dark && leaves_out) continue;
+        making.light_begin = making.record_count;
         if (dark)
             dark_records(making, l);
         else
-            area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
+            make_records(making, l);
     }
     shadow(making);
     return {int32_t(making.record_count), making.records.data()};
@@ -258,9 +255,12 @@ void LightRecords::dark_records(Making& making, const LightOutputs& statement,
     std::span<const float*> columns =
         arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), making.at.zeros - making.at.first);
-    const float* uniforms = record_uniforms(frame_.pose, arena, statement, binding);
-    while (making.record_count < end)
+    const float* uniforms =
+        record_uniforms(frame_.pose, arena, statement, binding, making.light_begin);
+    while (making.record_count < end) {
+        make_room(making);
         making.records[making.record_count++] = {columns.data(), uniforms};
+    }
 }
 
 void LightRecords::shadow(const Making& making) const {
@@ -287,7 +287,7 @@ std::span<PointRays> LightRecords::accounts(const Making& making) {
     return all.empty() ? all : all.subspan(making.at.first, making.at.count);
 }
 
-void LightRecords::plain_records(Making& making, size_t l) {
+std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, LightAnswer* answer) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
     const ShaderInstance& look = look_of_light(frame_, l);
@@ -296,6 +296,8 @@ void LightRecords::plain_records(Making& making, size_t l) {
     lit.depth = grid.depth;
     lit.ray = grid.ray;
     lit.shadows = grid.shadows;
+    lit.answer = answer;
+    if (answer) lit.series = at.series;
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     lit.lit = &grid;
     lit.lit_first = at.first;
@@ -307,14 +309,23 @@ void LightRecords::plain_records(Making& making, size_t l) {
     }
     lit.columns = light_columns(look, frame_.pose, frame_.lights.lights[l], at, arena);
     if (look.lowered.draws_random) lit.note_random();
-    std::span<float*> out = kernels_.run(look.full, lit);
     grid.memory.counters.light_points += at.count;
+    return kernels_.run(look.full, lit);
+}
+
+void LightRecords::make_records(Making& making, size_t l) {
+    if (bindings_.statements(l)[0].sampled) return sampled_records(making, l);
+    area_lights_.find(l) ? area_records(making, l) : plain_records(making, l);
+}
+
+void LightRecords::plain_records(Making& making, size_t l) {
+    std::span<float*> out = run_kernel(making, l, nullptr);
     for (const LightOutputs& statement : bindings_.statements(l))
         if (statement.spread >= 0)
             cone_records(making, l, statement, out);
         else
-            make_record(making, statement, bindings_.binding(grid.look->index, l), out, false,
-                        nullptr);
+            make_record(making, statement, bindings_.binding(making.grid.look->index, l), out,
+                        false, nullptr);
 }
 
 void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& statement,
@@ -420,6 +431,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         set(rsl::kLightCl + k, statement.Cl[k]);
         set(rsl::kLightOl + k, statement.Ol[k]);
     }
+    set(rsl::kLightDensity, statement.density);
     if (statement.lit < 0) columns[rsl::kLightLit] = ones_column(arena, at.count);
     set(rsl::kLightLit, statement.lit);
     for (size_t m = 0; m < binding.messages.size(); ++m)
@@ -432,7 +444,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         sent.lit = statement.lit < 0 ? nullptr : out[size_t(statement.lit)];
         sent.samples = samples;
         for (size_t k = 0; k < 3; ++k) {
-            sent.L[k] = out[size_t(statement.L[k])];
+            sent.L[k] = out[size_t(statement.sampled ? statement.end[k] : statement.L[k])];
             sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
         }
         const bool shines = sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
@@ -443,8 +455,24 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
     }
     // Columns are read at the grid's point, so those of a part of it start before it.
     for (const float*& column : columns) column -= at.first;
+    make_room(making);
     making.records[making.record_count++] = {
-        columns.data(), record_uniforms(frame_.pose, arena, statement, binding)};
+        columns.data(),
+        record_uniforms(frame_.pose, arena, statement, binding, making.light_begin)};
+}
+
+// Lights with sample methods send more than anyone counted.
+void LightRecords::make_room(Making& making) {
+    constexpr size_t kMoreRecords = 16;
+    if (making.record_count < making.records.size()) return;
+    std::span<jit::Record> more = making.grid.memory.arena.allocate_span<jit::Record>(
+        2 * making.records.size() + kMoreRecords);
+    std::copy(making.records.begin(), making.records.end(), more.begin());
+    making.records = more;
+}
+
+int32_t LightRecords::domain_of(const ShaderInstance& look) {
+    return rsl::intern(look.lowered.light_domain);
 }
 
 namespace {
@@ -464,57 +492,6 @@ uint32_t next_handle(Grid& grid, int32_t first) {
     return handle;
 }
 
-// Rows of lanes.
-template <class T>
-T* lane_row(Arena& arena) {
-    return arena.allocate_span<T>(jit::kMaxLanes).data();
-}
-
-// The points of a call, on no surface.
-LightPoints points_of(const Grid& grid, const jit::ServiceCall& call) {
-    Arena& arena = grid.memory.arena;
-    const ShadingFrame& frame = grid.frame;
-    const mat3 accel_from_camera = glm::transpose(frame.camera_from_accel);
-    float* rows[13];
-    for (float*& row : rows) row = lane_row<float>(arena);
-    raytrace::SampleSeries* series = lane_row<raytrace::SampleSeries>(arena);
-    uint32_t* surface = lane_row<uint32_t>(arena);
-    for (size_t i = 0; i < jit::kMaxLanes; ++i) {
-        vec3 P(call.args[i], call.args[jit::kMaxLanes + i], call.args[2 * jit::kMaxLanes + i]);
-        if (!(call.mask >> i & 1)) P = vec3(0);
-        vec3 accel = accel_from_camera * P + frame.eye;
-        // The point went through a rotation and a sum: gamma(4) of the magnitudes bounds that.
-        vec3 error =
-            (std::abs(P.x) + std::abs(P.y) + std::abs(P.z) + glm::abs(frame.eye)) * 2.4e-7f;
-        for (int k = 0; k < 3; ++k) {
-            rows[k][i] = P[k];
-            rows[3 + k][i] = accel[k];
-            rows[6 + k][i] = error[k];
-            rows[9 + k][i] = 0;
-        }
-        // Each step of a march has numbers of its own.
-        uint32_t h = grid.points[std::min(size_t(call.first) + i, grid.count() - 1)];
-        const uint32_t own = raytrace::hash(random_of(grid.hits, h, frame.seed),
-                                            raytrace::hash(bits(P.x), bits(P.y), bits(P.z)));
-        rows[12][i] = jit::float_of(int32_t(own));
-        series[i] = {own};
-        surface[i] = kNone;
-    }
-    LightPoints at;
-    at.count = size_t(std::min<int32_t>(call.lanes, int32_t(grid.count()) - call.first));
-    at.first = size_t(call.first);
-    at.rng = rows[12];
-    at.series = series;
-    at.surface = surface;
-    for (size_t k = 0; k < 3; ++k) {
-        at.P[k] = rows[k];
-        at.accel[k] = rows[3 + k];
-        at.error[k] = rows[6 + k];
-        at.N[k] = at.Ng[k] = rows[9 + k];
-    }
-    return at;
-}
-
 }  // namespace
 
 int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
@@ -525,6 +502,24 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
     } else {
         grid.record_sets[handle] = make_records(grid, points_of(grid, call));
     }
+    return int32_t(handle);
+}
+
+int32_t LightRecords::along(Grid& grid, const jit::ServiceCall& call) {
+    const uint32_t handle = next_handle(grid, call.first);
+    const bool own = grid.lit_points && asks_at(*grid.lit_points, call);
+    LightPoints at = own ? part_of(*grid.lit_points, call) : points_of(grid, call);
+    Arena& arena = grid.memory.arena;
+    std::span<float> zeros = arena.allocate_span<float>(padded(at.count));
+    std::fill(zeros.begin(), zeros.end(), 0.0f);
+    at.zeros = zeros.data();
+    Making making{grid, at, arena.allocate_span<jit::Record>(sampling_.size()),
+                  arena.allocate_span<SentLight>(1)};
+    const Sphere lit = sphere_about(at.P, at.count);
+    for (size_t l : sampling_)
+        if (bindings_.binding(grid.look->index, l).seen && reaches(reaches_[l], lit))
+            record_along(making, l, call);
+    grid.record_sets[handle] = {int32_t(making.record_count), making.records.data()};
     return int32_t(handle);
 }
 

@@ -2,9 +2,12 @@
 // that surface kernels replay (docs/decisions.md#lights-run-once).
 #pragma once
 
+#include <array>
+
 #include "runtime/picture/lights/unseen_light.h"
 #include "runtime/picture/shading/area_light.h"
 #include "runtime/picture/shading/kernel_runner.h"
+#include "runtime/picture/shading/light_samples.h"
 
 namespace kinora {
 
@@ -16,18 +19,18 @@ class LightShadows {
     virtual void cast(const Grid& grid, const LightPoints& at, const SentLight& light) = 0;
 };
 
+// L, where its shadow ray ends, Cl and density of a sample.
+using SampleColumnList = std::array<float*, 10>;
+
 class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
-    // `all`: records of lights that reach no point are made too, as light_of_records has them.
+    // `all`: records of lights that reach no point are made too.
     void begin_frame(bool all);
     // Whether some loop of the scene's shaders asks for that one of Scene::lights.
     bool asked(size_t light) const { return bindings_.asked(light); }
     // Names the lights that shine only against where they look.
     void report_aims(Diagnostics& diagnostics) const;
-
-    // Which of Scene::lights each record of a set is of.
-    std::vector<size_t> light_of_records() const;
 
     // Of a grid: fewer where there are many lights, so that all their records stay in the cache.
     size_t most_points() const;
@@ -37,6 +40,8 @@ class LightRecords {
     void run(Grid& grid);
     // The service `lights`: records at other points than the grid's own; their handle.
     int32_t at(Grid& grid, const jit::ServiceCall& call);
+    // The service `samplinglights`: what lights with sample methods send from directions.
+    int32_t along(Grid& grid, const jit::ServiceCall& call);
 
   private:
     // Records of a grid's points, and what of them comes from somewhere.
@@ -46,12 +51,32 @@ class LightRecords {
         std::span<jit::Record> records;
         std::span<SentLight> sent;
         size_t record_count = 0, sent_count = 0;
+        size_t light_begin = 0;  // the first record of the light
     };
     jit::RecordSet make_records(Grid& grid, LightPoints at);
+    void make_records(Making& making, size_t light);
     void find_present();
     static std::span<PointRays> accounts(const Making& making);
     // Run a light's kernel.
+    std::span<float*> run_kernel(const Making& making, size_t light, LightAnswer* answer);
     void plain_records(Making& making, size_t light);
+    void sampled_records(Making& making, size_t light);
+    // One sample of a light, of `counts` at each point.
+    void sample_record(Making& making, size_t light, const LightSampleRows& rows,
+                       std::span<float* const> out, const float* counts) const;
+    // A record of these columns: L, where its shadow ray ends, Cl and density. Messages are among
+    // the kernel's outputs.
+    void add_sample(Making& making, size_t light, std::span<float* const> out,
+                    SampleColumnList sample) const;
+    // Both side by side; the statement gets to know their numbers.
+    static std::span<float* const> columns_of(const Making& making, LightOutputs& statement,
+                                              std::span<float* const> out,
+                                              std::span<float* const> sample);
+    static void make_room(Making& making);
+    void keep_counts(Making& making, size_t light, const float* counts) const;
+    static int32_t domain_of(const ShaderInstance& look);
+    // What one light sends from the directions of samplinglights.
+    void record_along(Making& making, size_t light, const jit::ServiceCall& call);
     void area_records(Making& making, size_t light);
     // Records of solar with an angle: a sample of its cone each, with its share of the light.
     void cone_records(Making& making, size_t light, const LightOutputs& statement,
@@ -77,10 +102,12 @@ class LightRecords {
     std::vector<LightReach> reaches_;  // of each light, in this frame
     std::vector<size_t> every_;        // light
     std::vector<size_t> present_;      // those whose light may reach some surface in this frame
+    std::vector<size_t> sampling_;     // those with sample methods
     bool all_ = false;
     size_t record_count_ = 0;     // of one run
     bool need_rng_ = false;       // some light's kernel does
     bool draws_samples_ = false;  // for some light
+    float far_ = 0;               // beyond all that may stand before an endless light
 };
 
 }  // namespace kinora

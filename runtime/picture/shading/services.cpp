@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "raytrace/hits.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/bake.h"
 #include "runtime/picture/shading/light_records.h"
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
+#include "runtime/scene/kernels/stratified.h"
 #include "runtime/scene/shaders/queries.h"
 #include "runtime/scene/spaces.h"
 
@@ -63,6 +65,25 @@ void PictureHost::raylimit(const jit::ServiceCall& call) {
         call.results[lane] = jit::float_of(int32_t(ends));
     }
 }
+void PictureHost::stratified(const jit::ServiceCall& call) {
+    raytrace::SampleSeries place[jit::kMaxLanes];
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
+        const size_t i = std::min(size_t(call.first + lane), grid_.count() - 1);
+        place[lane] = grid_.series ? grid_.series[i]
+                                   : series_of(grid_.hits, grid_.points[i], grid_.frame.seed);
+        place[lane].seed = raytrace::hash(place[lane].seed, uint32_t(grid_.look->index));
+    }
+    answer_stratified(call, place);
+}
+void PictureHost::samplewish(const jit::ServiceCall& call) {
+    if (grid_.answer)
+        grid_.answer->tell(call);
+    else
+        std::fill_n(call.results, 5 * jit::kMaxLanes, 0.0f);
+}
+void PictureHost::lightsample(const jit::ServiceCall& call) {
+    if (grid_.answer) grid_.answer->take(call);
+}
 void PictureHost::query(const jit::ServiceCall& call) {
     answer_query(scene_, pose_, look_, &grid_, call);
 }
@@ -74,6 +95,10 @@ void GridHost::lights(const jit::ServiceCall& call) {
     StageScope stage(Stage::Lights);
     answer_handle(call, services_.lights.at(grid_, call));
 }
+void GridHost::samplinglights(const jit::ServiceCall& call) {
+    StageScope stage(Stage::Lights);
+    answer_handle(call, services_.lights.along(grid_, call));
+}
 void GridHost::bake3d(const jit::ServiceCall& call) {
     services_.bakes.add(grid_, call);
 }
@@ -81,6 +106,10 @@ void GridHost::bake3d(const jit::ServiceCall& call) {
 void NotingHost::lights(const jit::ServiceCall& call) {
     grid_.record_sets[1] = {};
     answer_handle(call, 1);
+}
+
+void NotingHost::samplinglights(const jit::ServiceCall& call) {
+    lights(call);
 }
 
 }  // namespace kinora

@@ -160,10 +160,12 @@ rsl::ReferenceInputs point_inputs(const GridHost& host, const std::vector<rsl::L
 
 std::vector<std::string> record_names(const GridHost& host) {
     const ShadingFrame& frame = host.grid().frame;
+    const jit::RecordSet& set = host.grid().record_sets[0];
     std::vector<std::string> names;
-    for (size_t light : host.services().lights.light_of_records()) {
+    for (int32_t r = 0; r < set.count; ++r) {
+        const int32_t light = jit::bits_of(set.records[r].uniforms[rsl::kLightNumber]);
         const LightDefinition& definition =
-            frame.resources.description->lights[frame.lights.lights[light].definition];
+            frame.resources.description->lights[frame.lights.lights[size_t(light)].definition];
         names.push_back(definition.name.empty() ? definition.id : definition.name);
     }
     return names;
@@ -190,6 +192,8 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
             light.Ol[k] = double(column(rsl::kLightOl + k));
         }
         light.lit = jit::bits_of(column(rsl::kLightLit)) != 0;
+        light.sampled = jit::bits_of(record.uniforms[rsl::kLightSampled]) != 0;
+        light.density = double(column(rsl::kLightDensity));
         size_t next = rsl::kLightMessages;
         for (size_t m = 0; m < lowered.light_messages.size(); ++m) {
             size_t count = size_t(rsl::component_count(lowered.light_message_types[m].base)) *

@@ -123,6 +123,7 @@ void ShadeKernel::fill_records() {
         columns[rsl::kLightLit] = column(kSlice, jit::float_of(1));
         float* uniforms = column(rsl::kLightUniforms + lowered_.light_messages.size(), 0);
         uniforms[rsl::kLightKind] = jit::float_of(light.kind);
+        uniforms[rsl::kLightHandle] = jit::float_of(int32_t(records_.size()));
         records_.push_back({columns.data(), uniforms});
     }
     record_sets_[kPatchLights] = {int32_t(records_.size()), records_.data()};

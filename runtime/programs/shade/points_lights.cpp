@@ -208,6 +208,7 @@ void PointsLights::add_records(const Light& light, std::span<float* const> out, 
         uniforms[rsl::kLightNondiffuse] = float(number(light, "__nondiffuse"));
         uniforms[rsl::kLightNonspecular] = float(number(light, "__nonspecular"));
         uniforms[rsl::kLightNumber] = jit::float_of(light.number);
+        uniforms[rsl::kLightHandle] = jit::float_of(int32_t(records.size()));
         for (const float*& column : columns) column -= first;
         records.push_back({columns.data(), uniforms});
     }

@@ -6,6 +6,7 @@
 
 #include "rsl/model/renderer_services.h"
 #include "runtime/scene/images/texture.h"
+#include "runtime/scene/kernels/stratified.h"
 
 namespace kinora {
 
@@ -20,6 +21,10 @@ void WorldHost::textureinfo(const jit::ServiceCall& call) {
 }
 void WorldHost::shadow(const jit::ServiceCall& call) {
     lookup_shadow(call, world_from_current(), textures());
+}
+
+void WorldHost::stratified(const jit::ServiceCall& call) {
+    answer_stratified(call, nullptr);
 }
 
 void WorldHost::transform(const jit::ServiceCall& call) {

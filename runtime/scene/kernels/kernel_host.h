@@ -44,6 +44,7 @@ class WorldHost : public KernelHost {
     void shadow(const jit::ServiceCall& call) override;
     void textureinfo(const jit::ServiceCall& call) override;
     void transform(const jit::ServiceCall& call) override;
+    void stratified(const jit::ServiceCall& call) override;  // a sequence a point
 };
 
 // The function behind a service's name: its KernelCall::host answers. An unknown name stops the

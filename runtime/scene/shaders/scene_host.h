@@ -42,6 +42,9 @@ class UnlitHost : public SceneHost {
     KINORA_UNANSWERED(indirectdiffuse)
     KINORA_UNANSWERED(gather)
     KINORA_UNANSWERED(raylimit)
+    KINORA_UNANSWERED(samplinglights)
+    KINORA_UNANSWERED(samplewish)
+    KINORA_UNANSWERED(lightsample)
     KINORA_UNANSWERED(bake3d)
 };
 

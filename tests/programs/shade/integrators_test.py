@@ -1,6 +1,5 @@
 """tests/programs/shade/integrators_test.py: directlighting() and indirectspecular() of classes, over points and lights whose
 sums are arithmetic by hand."""
-import math
 import sys
 from pathlib import Path
 
@@ -15,7 +14,7 @@ SLANT = """light slant(string __category = "key";) {
     solar(vector "world" (0, -0.8, -0.6), 0) Cl = color(0, 2, 0);
 }"""
 FRONT = {"P": [0, 0, 0], "N": [0, 0, 1], "I": [0, 0, -1]}
-# "diffuse" is 0.5 x cosine / PI, "specular" the cosine squared.
+# "diffuse" is 0.5 x cosine / PI, "specular" the cosine squared / PI; lights of Cl are radiance PI x Cl.
 CLASS = """class x(output varying color d = 9; output varying color g = 9; output varying color e = 9;
                 output varying float n = 9;) {{
     {members}
@@ -24,7 +23,7 @@ CLASS = """class x(output varying color d = 9; output varying color g = 9; outpu
         for (i = 0; i < arraylength(a); i += 1) {{
             float c = max(0, a[i]->direction . normalize(N));
             if (what == "diffuse") a[i]->setMaterialResponse(0.5 * c / PI, 0);
-            else if (what == "specular") a[i]->setMaterialResponse(c * c, 1);
+            else if (what == "specular") a[i]->setMaterialResponse(c * c / PI, 1);
         }}
     }}
     public void generateSamples(string what; output __radiancesample a[]) {{
@@ -44,7 +43,7 @@ class Integrators(Points):
                    expected, sun=SUN, slant=SLANT)
 
     def test_results_are_sums_over_lights(self):
-        d = [0.5 / math.pi, 0.5 / math.pi * (1 + 2 * 0.6), 0.5 / math.pi]
+        d = [0.5, 0.5 * (1 + 2 * 0.6), 0.5]
         g = [1, 1 + 2 * 0.36, 1]
         self.lit("public void lighting(output color Ci, Oi) {"
                  " Ci = directlighting(this, getlights(), \"mis\", 1, \"heuristic\", \"veachpower2\","
@@ -63,7 +62,7 @@ class Integrators(Points):
                  " d = directlighting(this, getlights()); }"
                  "public void specularlighting(output color Ci, Oi) {"
                  " g = directlighting(this, getlights(), \"diffuseresult\", e); }",
-                 {"d": [[0.5 / math.pi, 0.5 / math.pi * 2.2, 0.5 / math.pi]],
+                 {"d": [[0.5, 0.5 * 2.2, 0.5]],
                   "g": [[1, 1.72, 1]], "e": [[0, 0, 0]]})
 
     def test_results_may_be_members(self):

@@ -87,6 +87,7 @@ TEST(Getlights, LightsStandBesideOtherShaders) {
                2 + 0.25f);
 }
 
+// Cl of 1 is a radiance of PI: what a Lambert response of cosine / PI makes 1 of.
 TEST(Getlights, FeedsDirectlighting) {
     std::string samples =
         "public void evaluateSamples(string what; output __radiancesample r[]) { uniform float k;"
@@ -94,7 +95,7 @@ TEST(Getlights, FeedsDirectlighting) {
     expect_lit(lit("shader all[] = getlights(\"category\", \"key\"); color d = 0;"
                    "Ci = directlighting(this, all, \"diffuseresult\", d);",
                    samples),
-               0.5f * 2 + 0.5f * 2);
+               3.14159265f * (0.5f * 2 + 0.5f * 2));
 }
 
 TEST(Getlights, SaysWhatCannotBeDone) {
@@ -105,7 +106,8 @@ TEST(Getlights, SaysWhatCannotBeDone) {
     } rows[] = {
         {all + "all[0]->generateSamples(\"sphere\", c);", "RSL_LIGHT_METHOD"},
         {all + "all[0]->light(L);", "RSL_LIGHT_METHOD"},
-        {all + "if (s > 0) all[0] = getshader(\"a\"); all[0]->intensity = 1;", "RSL_CO_SHADER_WRITE"},
+        {all + "if (s > 0) all[0] = getshader(\"a\"); all[0]->intensity = 1;",
+         "RSL_CO_SHADER_WRITE"},
         {"shader all[] = getlights(\"group\", \"a\"); Ci = arraylength(all);", "RSL_LIGHT_QUERY"},
         {"shader all = getlights();", "RSL_ARRAY_AS_VALUE"}};
     for (auto& row : rows)

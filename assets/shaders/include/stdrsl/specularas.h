@@ -56,7 +56,7 @@ struct stdrsl_SpecularAS {
             samples[i]->setMaterialResponse(response, pdf);
         }
     }
-    // Directions by the lobe, appended.
+    // Directions by the lobe, appended: those below the surface, whose pdf is 0, count as well.
     void genSpecularSamps(stdrsl_ShadingContext ctx; stdrsl_Fresnel fres; string what;
                           output __radiancesample samples[]) {
         float nu = 1 / (m_roughValueU * m_roughValueU), nv = 1 / (m_roughValueV * m_roughValueV);
@@ -72,11 +72,9 @@ struct stdrsl_SpecularAS {
                           ctx->m_Ns * cosine;
             vector towards = normalize(reflect(-ctx->m_Vn, half));
             evaluate(ctx, towards, response, pdf);
-            if (pdf > 0) {
-                __radiancesample made;
-                made->setMaterialSample(response, pdf, towards, M_MAXDIST);
-                push(samples, made);
-            }
+            __radiancesample made;
+            made->setMaterialSample(response, pdf, towards, M_MAXDIST);
+            push(samples, made);
         }
     }
 };

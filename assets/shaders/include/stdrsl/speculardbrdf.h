@@ -51,7 +51,7 @@ struct stdrsl_SpecularDBRDF {
             samples[i]->setMaterialResponse(response, pdf);
         }
     }
-    // Directions by the lobe, appended.
+    // Directions by the lobe, appended: those below the surface, whose pdf is 0, count as well.
     void genSpecularSamps(stdrsl_ShadingContext ctx; stdrsl_Fresnel fres; string what;
                           output __radiancesample samples[]) {
         float square = m_roughness * m_roughness, i, pdf = 0;
@@ -65,11 +65,9 @@ struct stdrsl_SpecularDBRDF {
                           ctx->m_Bitangent * (sine * sin(angle)) + ctx->m_Ns * cosine;
             vector towards = normalize(reflect(-ctx->m_Vn, half));
             evaluate(ctx, towards, response, pdf);
-            if (pdf > 0) {
-                __radiancesample made;
-                made->setMaterialSample(response, pdf, towards, M_MAXDIST);
-                push(samples, made);
-            }
+            __radiancesample made;
+            made->setMaterialSample(response, pdf, towards, M_MAXDIST);
+            push(samples, made);
         }
     }
 };

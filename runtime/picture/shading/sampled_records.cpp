@@ -1,0 +1,165 @@
+// runtime/picture/shading/sampled_records.cpp: records of lights with sample methods: their samples
+// at lit points, and what they send from directions that a material has chosen.
+//
+// Cl of a sample is radiance / (PI x density), density being the number of samples x pdf: the sum
+// over the samples is then the light that a point light of Cl would give, for diffuse() and for
+// directlighting() alike.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "runtime/picture/shading/light_records.h"
+
+namespace kinora {
+
+namespace {
+
+// Shadow rays end a little before the light: a mesh that shows it may lie where its samples do.
+constexpr float kShortOf = 0.9999f;
+constexpr float kEndless = 1e29f;  // a distance as great means none
+
+// Columns of a sample as a record has them, in the place of a kernel's outputs.
+struct SampleColumns {
+    explicit SampleColumns(Arena& arena, size_t points) {
+        for (auto* rows : {&L, &end, &Cl})
+            for (float*& row : *rows) row = arena.allocate_span<float>(points).data();
+        density = arena.allocate_span<float>(points).data();
+    }
+    void set(size_t i, vec3 towards, vec3 light, float dense) {
+        for (int k = 0; k < 3; ++k) {
+            L[k][i] = towards[k];
+            end[k][i] = kShortOf * towards[k];
+            Cl[k][i] = light[k];
+        }
+        density[i] = dense;
+    }
+
+    SampleColumnList columns() const {
+        return {L[0], L[1], L[2], end[0], end[1], end[2], Cl[0], Cl[1], Cl[2], density};
+    }
+
+    float* L[3];
+    float* end[3];  // of its shadow ray
+    float* Cl[3];
+    float* density;
+};
+
+// What a sample holds at a point; dark where its numbers mean nothing.
+struct PointSample {
+    PointSample(const LightSampleRows& rows, size_t i, float far)
+        : Cl(rows.Cl[0][i], rows.Cl[1][i], rows.Cl[2][i]), pdf(rows.pdf[i]) {
+        const vec3 D(rows.D[0][i], rows.D[1][i], rows.D[2][i]);
+        const float length2 = glm::dot(D, D), distance = rows.distance[i];
+        shines = pdf > 0 && length2 > 0 && length2 < kEndless && distance > 0 &&
+                 std::isfinite(Cl.x) && std::isfinite(Cl.y) && std::isfinite(Cl.z);
+        if (!shines) return;
+        L = D * ((distance < kEndless ? distance : far) / std::sqrt(length2));
+    }
+    vec3 L{0.0f, 0.0f, 1.0f}, Cl;
+    float pdf;
+    bool shines;
+};
+
+}  // namespace
+
+std::span<float* const> LightRecords::columns_of(const Making& making, LightOutputs& statement,
+                                                 std::span<float* const> out,
+                                                 std::span<float* const> sample) {
+    std::span<float*> all =
+        making.grid.memory.arena.allocate_span<float*>(out.size() + sample.size());
+    std::copy(sample.begin(), sample.end(), std::copy(out.begin(), out.end(), all.begin()));
+    for (int k = 0; k < 3; ++k) {
+        statement.L[k] = int(out.size()) + k;
+        statement.end[k] = int(out.size()) + 3 + k;
+        statement.Cl[k] = int(out.size()) + 6 + k;
+    }
+    statement.density = int(out.size()) + 9;
+    return all;
+}
+
+void LightRecords::sampled_records(Making& making, size_t l) {
+    Arena& arena = making.grid.memory.arena;
+    LightQuestion question;
+    question.domain = domain_of(*making.grid.look);
+    LightAnswer answer(question, making.at.count, arena);
+    std::span<float*> out = run_kernel(making, l, &answer);
+    keep_counts(making, l, answer.counts());
+    for (const LightSampleRows* rows = answer.first(); rows; rows = rows->next)
+        sample_record(making, l, *rows, out, answer.counts());
+}
+
+// Beside each other for all points of the grid: records at other points are made lane by lane.
+void LightRecords::keep_counts(Making& making, size_t l, const float* counts) const {
+    Grid& grid = making.grid;
+    Arena& arena = grid.memory.arena;
+    if (grid.sample_counts.empty()) {
+        grid.sample_counts = arena.allocate_span<float*>(frame_.lights.lights.size());
+        std::fill(grid.sample_counts.begin(), grid.sample_counts.end(), nullptr);
+    }
+    float*& row = grid.sample_counts[l];
+    if (!row) {
+        std::span<float> all = arena.allocate_span<float>(padded(grid.count()));
+        std::fill(all.begin(), all.end(), 0.0f);
+        row = all.data();
+    }
+    std::copy_n(counts, making.at.count, row + making.at.first);
+}
+
+void LightRecords::sample_record(Making& making, size_t l, const LightSampleRows& rows,
+                                 std::span<float* const> out, const float* counts) const {
+    const size_t points = padded(making.at.count);
+    SampleColumns sample(making.grid.memory.arena, points);
+    for (size_t i = 0; i < points; ++i) {
+        const PointSample at(rows, i, far_);
+        const float density = at.shines ? at.pdf * counts[i] : 0.0f;
+        const bool counts_for = density > 0;
+        sample.set(i, at.L, counts_for ? at.Cl / (float(kPi) * density) : vec3(0.0f), density);
+    }
+    add_sample(making, l, out, sample.columns());
+}
+
+void LightRecords::add_sample(Making& making, size_t l, std::span<float* const> out,
+                              SampleColumnList sample) const {
+    LightOutputs statement = bindings_.statements(l)[0];
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    make_record(making, statement, binding, columns_of(making, statement, out, sample), true,
+                nullptr);
+}
+
+// ---- from directions ----------------------------------------------------------------------------
+
+namespace {
+
+// Rows of the arguments of samplinglights.
+enum AlongArgument { kAlong = 3, kMaterialDensity = 6, kHeuristic = 7 };
+
+const float* argument(const jit::ServiceCall& call, int row) {
+    return call.args + row * jit::kMaxLanes;
+}
+
+}  // namespace
+
+void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall& call) {
+    Grid& grid = making.grid;
+    LightQuestion question;
+    question.wish = rsl::SampleWish::Evaluate;
+    question.domain = domain_of(*grid.look);
+    for (int k = 0; k < 3; ++k) question.along[k] = argument(call, kAlong + k);
+    const size_t count = making.at.count, points = padded(count);
+    LightAnswer answer(question, count, grid.memory.arena);
+    std::span<float*> out = run_kernel(making, l, &answer);
+    if (!answer.first()) return;
+    const float* samples = grid.sample_counts.empty() ? nullptr : grid.sample_counts[l];
+    SampleColumns sample(grid.memory.arena, points);
+    for (size_t i = 0; i < points; ++i) {
+        const PointSample at(*answer.first(), i, far_);
+        const bool asks = i < count && (call.mask >> i & 1) && at.shines;
+        const float own = argument(call, kMaterialDensity)[i],
+                    power = argument(call, kHeuristic)[i];
+        const float lights = samples && asks ? samples[size_t(call.first) + i] * at.pdf : 0.0f;
+        sample.set(i, at.L, asks ? at.Cl * sample_weight(own, lights, power) : vec3(0.0f), lights);
+    }
+    add_sample(making, l, out, sample.columns());
+}
+
+}  // namespace kinora
