@@ -133,9 +133,9 @@ void whole_integrator(benchmark::State& state) {
         state.counters[stage_name(s)] = double(counters.stages[s]) / double(counters.stages.sum());
 }
 
-constexpr AccelPolicy kFast{.robust = false};
-constexpr AccelPolicy kAnyWinner{.fixed_winner = false};
-constexpr AccelPolicy kRebuild{.always_rebuild = true};
+const AccelPolicy kFast{.robust = false};
+const AccelPolicy kAnyWinner{.fixed_winner = false};
+const AccelPolicy kRebuild{.always_rebuild = true};
 
 BENCHMARK_CAPTURE(bare_embree, refit, RTC_BUILD_QUALITY_REFIT, true)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(update, refit, AccelPolicy{})->Unit(benchmark::kMillisecond);

@@ -142,5 +142,23 @@ TEST(Transparency, ShadowRaysAreDimmedByEverySheetOnTheirWay) {
     expect_pixel(r, {(1.0 - kA.opacity) * (1.0 - kB.opacity), dvec3(1)});
 }
 
+// The same whether something of the scene is transparent or not.
+TEST(Transparency, BlockedLightIsDarkHoweverStrong) {
+    for (const char* aside : {"Oi = 1;", "Oi = 0.5;"}) {
+        SceneText scene;
+        scene.square("s", 1.5)
+            .look("floor", "surface f() { Oi = 1; Ci = diffuse(normalize(N)) + color(0, 0.5, 0); }")
+            .look("aside", std::string("surface a() { Ci = 0; ") + aside + " }")
+            .place("s", "floor")
+            .place("s", "floor", "<translate>0 0 11</translate>")
+            .place("s", "aside", "<translate>500 0 0</translate>")
+            .rsl_light("sun",
+                       "light sun() { solar(vector \"world\" (0, 0, -1), 0) Cl = 1e30 * 1e30; }");
+        Rendering r(scene.text());
+        r.frame();
+        expect_pixel(r, {dvec3(0, 0.5, 0), dvec3(1)});
+    }
+}
+
 }  // namespace
 }  // namespace kinora

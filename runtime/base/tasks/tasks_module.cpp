@@ -8,15 +8,15 @@
 
 #include <memory>
 #include <optional>
-#if defined(__SANITIZE_THREAD__)
+#if defined(KINORA_THREAD_SANITIZER)
 #include <sanitizer/tsan_interface.h>
 #endif
 
 namespace {
 
 // ThreadSanitizer does not see how oneTBB orders the code before a loop, its parts and the code
-// after.
-#if defined(__SANITIZE_THREAD__)
+// after. This file is not instrumented, since reports of half of oneTBB would be wrong.
+#if defined(KINORA_THREAD_SANITIZER)
 struct LoopOrder {
     char begin, end;
     LoopOrder() { __tsan_release(&begin); }

@@ -72,10 +72,9 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
     // Small grids of several looks are lit together, so that their shadow rays fill packets.
     std::span<Grid*> lit = arena.allocate_span<Grid*>(runs.size());
     size_t grids = 0, points = 0;
-    ShadowQueue shadows(frame_, transmission_, memory, ray);
+    LampRays shadows(frame_, queue_, memory, ray);
     Arena::Mark part = arena.mark();
-    RayQueue queue(frame_, *this, transmission_);
-    RayNotes notes(queue, hits.depth + 1, memory);
+    RayNotes notes(queue_, hits.depth + 1, memory);
     auto shade_lit = [&] {
         shadows.finish();
         note_rays(lit.first(grids), notes);

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "runtime/picture/shading/transmission.h"
+#include "runtime/picture/shading/lamp_rays.h"
 #include "runtime/picture/shading/volumes.h"
 
 namespace kinora {
@@ -22,8 +22,8 @@ class HitShader {
         : frame_(frame),
           kernels_(kernels),
           lights_(lights),
-          transmission_(transmission),
-          shadows_(frame, transmission),
+          queue_(frame, *this, transmission),
+          shadows_(frame, queue_),
           volumes_(volumes) {}
 
     // The colours of hits of rays with that tag, with what volumes before them add. `outputs`:
@@ -33,6 +33,9 @@ class HitShader {
     // Of the ends of rays that met nothing: the volumes they run through.
     void shade_misses(const raytrace::HitBatch& ends, const RayTag& ray, ThreadMemory& memory,
                       raytrace::ShadeResult& result);
+
+    // The queue of the rays that kernels and lights send.
+    RayQueue& queue() { return queue_; }
 
   private:
     // One call of shade().
@@ -46,8 +49,8 @@ class HitShader {
     const ShadingFrame& frame_;
     KernelRunner& kernels_;
     LightRecords& lights_;
-    Transmission& transmission_;
-    ShadowRays shadows_;
+    RayQueue queue_;
+    LampRaysAtOnce shadows_;
     Volumes& volumes_;
 };
 

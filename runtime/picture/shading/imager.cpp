@@ -94,49 +94,43 @@ bool writes(const ShaderInstance& look, rsl::Global global) {
     return false;
 }
 
-}  // namespace
-
-size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
-                          raytrace::NanPolicy nan) {
-    const SceneShaders& shaders = frame_.shaders;
-    const ShaderInstance& look = *shaders.shader_instances[shaders.imager];
-    ThreadMemory& memory = *threads_[size_t(thread_index())];
-    Arena& arena = memory.arena;
-    Arena::Mark mark = arena.mark();
-    raytrace::HitBatch hits = no_hits(film, first, count, arena);
-    std::span<uint32_t> points = arena.allocate_span<uint32_t>(count);
-    for (uint32_t i = 0; i < count; ++i) points[i] = i;
-    Grid grid(frame_, memory, hits, points, &look);
-    kernels_.prepare(grid, {});
-    want_columns(grid, look.full.columns);
+// What the imager's kernel reads of the pixels from `first` on.
+void fill_columns(Grid& grid, const raytrace::Film& film, size_t first) {
+    const size_t count = grid.count();
     for (float* column : grid.columns)
         if (column) std::fill_n(column, padded(count), 0.0f);
     auto fill = [&](size_t column, auto&& value) {
         if (float* row = grid.columns[column])
             for (size_t i = 0; i < padded(count); ++i) row[i] = value(std::min(i, count - 1));
     };
+    const raytrace::HitBatch& hits = grid.hits;
     fill(kColP, [&](size_t i) { return float(hits.pixel_x[i]) + 0.5f; });
     fill(kColP + 1, [&](size_t i) { return float(hits.pixel_y[i]) + 0.5f; });
     fill(kColOne, [](size_t) { return 1.0f; });
     fill(kColRng, [&](size_t i) {
         return jit::float_of(
-            int32_t(raytrace::hash(hits.pixel_x[i], hits.pixel_y[i], frame_.seed)));
+            int32_t(raytrace::hash(hits.pixel_x[i], hits.pixel_y[i], grid.frame.seed)));
     });
     for (size_t k = 0; k < 3; ++k) {
         fill(kColCi + k, [&](size_t i) { return film.rgba[first + i][int(k)]; });
         fill(kColOi + k, [&](size_t i) { return film.rgba[first + i].w; });
     }
     fill(kColAlpha, [&](size_t i) { return film.rgba[first + i].w; });
-    for (const VaryingParam& param : look.varying)
+    for (const VaryingParam& param : grid.look->varying)
         for (uint32_t c = 0; c < param.components; ++c)
-            if (const float* plane = plane_of(shaders, film, param, c))
+            if (const float* plane = plane_of(grid.frame.shaders, film, param, c))
                 fill(param.column + c, [&](size_t i) { return plane[first + i]; });
-    std::span<float*> out = kernels_.run(look.full, grid);
-    ImagerOutputs outputs = find_outputs(look.full.kernel());
-    bool mean_of_Oi =
+}
+
+// What the kernel wrote, to the pixels. Returns how many were not finite.
+size_t put_pixels(const Grid& grid, std::span<float* const> out, raytrace::Film& film, size_t first,
+                  raytrace::NanPolicy nan) {
+    const ShaderInstance& look = *grid.look;
+    const ImagerOutputs outputs = find_outputs(look.full.kernel());
+    const bool mean_of_Oi =
         writes(look, rsl::Global::Oi) && !writes(look, rsl::Global::alpha) && outputs.Oi[0] >= 0;
     size_t bad = 0;
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < grid.count(); ++i) {
         auto value = [&](int output, float otherwise) {
             return output < 0 ? otherwise : out[size_t(output)][i];
         };
@@ -149,6 +143,25 @@ size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
         pixel.w = alpha;
         bad += !mend(pixel, nan);
     }
+    return bad;
+}
+
+}  // namespace
+
+size_t Imager::run_pixels(raytrace::Film& film, size_t first, size_t count,
+                          raytrace::NanPolicy nan) {
+    const ShaderInstance& look = *frame_.shaders.shader_instances[frame_.shaders.imager];
+    ThreadMemory& memory = *threads_[size_t(thread_index())];
+    Arena& arena = memory.arena;
+    Arena::Mark mark = arena.mark();
+    raytrace::HitBatch hits = no_hits(film, first, count, arena);
+    std::span<uint32_t> points = arena.allocate_span<uint32_t>(count);
+    for (uint32_t i = 0; i < count; ++i) points[i] = i;
+    Grid grid(frame_, memory, hits, points, &look);
+    kernels_.prepare(grid, {});
+    want_columns(grid, look.full.columns);
+    fill_columns(grid, film, first);
+    const size_t bad = put_pixels(grid, kernels_.run(look.full, grid), film, first, nan);
     arena.release(mark);
     return bad;
 }

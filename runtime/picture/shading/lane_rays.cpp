@@ -17,26 +17,32 @@
 
 namespace kinora {
 
-void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
-                    const raytrace::HitBatch& from, uint32_t hit) {
-    set_ray(rays, i, org, dir, tfar);
-    set_triple(rays.first_org, i, org);
-    rays.time[i] = from.time[hit];
-    rays.sees[i] = ~0u;
-    for (size_t k = 0; rays.spreads && k < 3; ++k) {
-        rays.dOdx[k][i] = from.dPdx[k][hit];
-        rays.dOdy[k][i] = from.dPdy[k][hit];
-        rays.dDdx[k][i] = rays.dDdy[k][i] = 0;
+void inherit(raytrace::RayBatch& rays, size_t first, const raytrace::HitBatch& from,
+             std::span<const uint32_t> hits) {
+    const size_t count = hits.size();
+    auto copy = [&](const auto* column, auto* to) {
+        for (size_t i = 0; i < count; ++i) to[first + i] = column[hits[i]];
+    };
+    auto fill = [&](auto* to, auto value) { std::fill_n(to + first, count, value); };
+    for (size_t k = 0; k < 3; ++k) {
+        std::copy_n(rays.org[k] + first, count, rays.first_org[k] + first);
+        if (!rays.spreads) continue;
+        copy(from.dPdx[k], rays.dOdx[k]), copy(from.dPdy[k], rays.dOdy[k]);
+        fill(rays.dDdx[k], 0.0f), fill(rays.dDdy[k], 0.0f);
     }
-    rays.t_passed[i] = 0;
-    rays.pixel_x[i] = from.pixel_x[hit];
-    rays.pixel_y[i] = from.pixel_y[hit];
-    rays.sample[i] = from.sample[hit];
-    rays.layer[i] = 0;
-    rays.share[i] = from.rays ? from.rays->share[from.ray[hit]] : 1.0f;
-    rays.medium[i] = from.rays ? from.rays->medium[from.ray[hit]] : 0;
-    rays.weight[i] = from.rays ? from.rays->weight[from.ray[hit]] : 1.0f;
-    rays.turns[i] = rays.spent[i] = 0;
+    copy(from.time, rays.time), copy(from.sample, rays.sample);
+    copy(from.pixel_x, rays.pixel_x), copy(from.pixel_y, rays.pixel_y);
+    fill(rays.t_passed, 0.0f);
+    for (uint32_t* column : {rays.layer, rays.turns, rays.spent}) fill(column, 0u);
+    auto copy_of_ray = [&](const auto* column, auto* to) {
+        for (size_t i = 0; i < count; ++i) to[first + i] = column[from.ray[hits[i]]];
+    };
+    if (from.rays) {
+        copy_of_ray(from.rays->share, rays.share), copy_of_ray(from.rays->weight, rays.weight);
+        copy_of_ray(from.rays->medium, rays.medium);
+    } else {
+        fill(rays.share, 1.0f), fill(rays.weight, 1.0f), fill(rays.medium, 0u);
+    }
 }
 
 RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
@@ -76,8 +82,9 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
         org = start.P + dir * (clear / glm::length(dir));
     }
     size_t i = rays.count++;
-    set_nested_ray(rays, i, org, dir, tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar,
-                   *start.hits, start.hit);
+    set_ray(rays, i, org, dir, tfar >= kMiss ? std::numeric_limits<float>::infinity() : tfar);
+    rays.sees[i] = ~0u;
+    inherit(rays, i, *start.hits, {&start.hit, 1});
     if (bias > 0) rays.tnear[i] = bias;
     if (!grid.frame.shaders.volumes.empty())
         rays.medium[i] = nested_medium(grid.frame, *start.hits, start.hit, dir);

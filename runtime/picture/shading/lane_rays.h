@@ -35,9 +35,10 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
 void spread_ray(raytrace::RayBatch& rays, const Grid& grid, const raytrace::HitBatch& from,
                 uint32_t hit);
 
-// A nested ray without footprint of its own.
-void set_nested_ray(raytrace::RayBatch& rays, size_t i, vec3 org, vec3 dir, float tfar,
-                    const raytrace::HitBatch& from, uint32_t hit);
+// Gives the rays of a batch from `first` on what they have from the hits that they leave, one each.
+// Their footprint stays as wide as it is there.
+void inherit(raytrace::RayBatch& rays, size_t first, const raytrace::HitBatch& from,
+             std::span<const uint32_t> hits);
 
 // Whether a grid's points are hits of its surface: lights read those of the points they light.
 inline bool on_surface(const Grid& grid) {

@@ -313,14 +313,14 @@ void RayQueue::see_beyond(const raytrace::RayBatch& rays, const raytrace::HitBat
 
 void RayQueue::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
                    ThreadMemory& memory, std::span<SeenByRay> seen) {
-    const raytrace::Accel& accel = frame_.pose.accel;
     for (size_t r = 0; r < rays.count; ++r) seen[rays.slot[r]] = {};
     Arena::Mark mark = memory.arena.mark();
     for (int layer = 0; rays.count > 0; ++layer) {
         NestedWavefront nested(memory);
         nested->hits.reserve(kGridPoints);
-        const raytrace::HitBatch& hits = raytrace::trace(accel, rays, raytrace::kMaskAll, depth,
-                                                         nested->hits, memory.counters.trace);
+        const raytrace::HitBatch& hits =
+            raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskAll, depth, nested->hits,
+                            memory.counters.trace);
         if (frame_.miss_distance > 0 && hits.count < rays.count)
             see_beyond(rays, hits, tag, memory, seen);
         if (hits.count == 0) break;
@@ -329,36 +329,41 @@ void RayQueue::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
             memory.counters.too_deep += hits.count;
             break;
         }
-        Arena::Mark layer_mark = memory.arena.mark();
-        raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
-        result.passages = memory.arena.allocate_span<raytrace::Passage>(hits.count).data();
-        std::fill_n(result.passages, hits.count, raytrace::Passage{});
-        hits_.shade(hits, tag, memory, result);
-        size_t kept = 0;
-        for (size_t h = 0; h < hits.count; ++h) {
-            uint32_t r = hits.ray[h], slot = rays.slot[r];
-            SeenByRay& at = seen[slot];
-            at.color += at.open * triple(result.Ci, h);
-            vec3 passing = vec3(1.0f) - stopped_by(triple(result.Oi, h));
-            const raytrace::Passage& passage = result.passages[h];
-            at.open *= passing * passage.onward;
-            at.distance = std::min(at.distance, hits.t[h]);
-            if (std::max(at.open.x, std::max(at.open.y, at.open.z)) < kLeastLight) {
-                at.open = vec3(0.0f);
-                continue;
-            }
-            uint32_t medium = medium_behind(frame_, hits, h);
-            raytrace::pass_through(accel, rays, kept, hits, h);
-            rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
-            rays.turns[kept] += passage.turns;
-            rays.spent[kept] += passage.spent;
-            rays.medium[kept++] = medium;
-        }
-        rays.passing = true;
-        rays.count = kept;
-        memory.arena.release(layer_mark);
+        see_layer(rays, hits, tag, memory, seen);
     }
     rays.passing = false;
+    memory.arena.release(mark);
+}
+
+// Adds what hits show; the batch becomes the rays that go on behind them.
+void RayQueue::see_layer(raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
+                         const RayTag& tag, ThreadMemory& memory, std::span<SeenByRay> seen) {
+    Arena::Mark mark = memory.arena.mark();
+    raytrace::ShadeResult result = take_colors(memory.arena, hits.count);
+    result.passages = memory.arena.allocate_span<raytrace::Passage>(hits.count).data();
+    std::fill_n(result.passages, hits.count, raytrace::Passage{});
+    hits_.shade(hits, tag, memory, result);
+    size_t kept = 0;
+    for (size_t h = 0; h < hits.count; ++h) {
+        SeenByRay& at = seen[rays.slot[hits.ray[h]]];
+        at.color += at.open * triple(result.Ci, h);
+        vec3 passing = vec3(1.0f) - stopped_by(triple(result.Oi, h));
+        const raytrace::Passage& passage = result.passages[h];
+        at.open *= passing * passage.onward;
+        at.distance = std::min(at.distance, hits.t[h]);
+        if (std::max(at.open.x, std::max(at.open.y, at.open.z)) < kLeastLight) {
+            at.open = vec3(0.0f);
+            continue;
+        }
+        uint32_t medium = medium_behind(frame_, hits, h);
+        raytrace::pass_through(frame_.pose.accel, rays, kept, hits, h);
+        rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
+        rays.turns[kept] += passage.turns;
+        rays.spent[kept] += passage.spent;
+        rays.medium[kept++] = medium;
+    }
+    rays.passing = true;
+    rays.count = kept;
     memory.arena.release(mark);
 }
 

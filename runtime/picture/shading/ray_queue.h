@@ -87,6 +87,8 @@ class RayQueue {
     static bool is_noting(const Grid& grid);
     void send_alike(const RayCall& call, const RayTag& tag, const AddSamples& add,
                     const SumSamples& sum);
+    void see_layer(raytrace::RayBatch& rays, const raytrace::HitBatch& hits, const RayTag& tag,
+                   ThreadMemory& memory, std::span<SeenByRay> seen);
     void see_beyond(const raytrace::RayBatch& rays, const raytrace::HitBatch& hits,
                     const RayTag& tag, ThreadMemory& memory, std::span<SeenByRay> seen);
     void find_distances(const raytrace::RayBatch& rays, ThreadMemory& memory,

@@ -56,9 +56,8 @@ struct Shading::Objects {
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
     HitShader hits{frame, kernels, lights, transmission, volumes};
-    RayQueue queue{frame, hits, transmission};
-    RayServices rays{frame, queue};
-    GatherRays gathers{frame, hits, queue};
+    RayServices rays{frame, hits.queue()};
+    GatherRays gathers{frame, hits, hits.queue()};
     Imager imager{frame, threads, kernels};
     Prints prints;
     Bakes bakes{frame.resources, frame.pose};
