@@ -135,6 +135,9 @@ void report_shading(const Scene& scene, Pose& pose, const ShadingCounters& shadi
     if (shading.out_of_rays)
         diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
                            scene.options.quality.ray_limit);
+    if (shading.thinned)
+        diagnostics.report(Code::RAY_SAMPLES, Location{}, shading.thinned,
+                           scene.options.quality.ray_limit);
     if (pose.watch_dark > 0) --pose.watch_dark;
     if (shading.dark > shading.seen / 2) {
         pose.watch_dark = 0;

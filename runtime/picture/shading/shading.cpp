@@ -29,6 +29,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     too_deep += o.too_deep;
     unlit += o.unlit;
     out_of_rays += o.out_of_rays;
+    thinned += o.thinned;
     kernel_points += o.kernel_points;
     kernel_lanes += o.kernel_lanes;
     seen += o.seen;

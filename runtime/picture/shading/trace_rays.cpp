@@ -70,9 +70,9 @@ class TraceRays {
             if (plan.count[lane] == 0) continue;
             rays_->set_straight(lane, glm::normalize(rays_->way(lane)));
             if (lanes_.number(Spread, lane) > 0)
-                rays_->set_cone(lane, lanes_.number(Spread, lane), count(lane));
-            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane),
-                             plan.share[lane]);
+                rays_->set_cone(lane, lanes_.number(Spread, lane), plan.count[lane]);
+            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane));
+            rays_->set_budget(lane, plan.share[lane], plan.allowance[lane]);
             rays_->set_weight(lane, plan.way[lane].weight);
         }
         return *rays_;
@@ -107,7 +107,7 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
     queue_.send({RayKind::Trace, grid, lanes, plan, TraceRays::Rows, TraceRays::Label}, add,
                 SumSamples(sum));
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? along.count(lane) : 1;
+        const int n = plan.count[lane];
         if (n > 1) color[lane] /= float(n);
         float factor = plan.way[lane].factor;
         lanes.set(0, lane, factor == 1 ? color[lane] : color[lane] * factor);
@@ -290,8 +290,8 @@ class ConeRays {
         for (int lane = 0; lane < kLanes; ++lane) {
             if (!lanes_.asks(lane)) continue;
             rays_->set_cone(lane, lanes_.number(Angle, lane), plan.count[lane]);
-            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane),
-                             plan.share[lane]);
+            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane));
+            rays_->set_budget(lane, plan.share[lane], plan.allowance[lane]);
         }
         return *rays_;
     }
@@ -410,10 +410,10 @@ class IndirectSum {
              Arena& arena);
     void put() const {
         for (int lane = 0; lane < kLanes; ++lane) {
-            int n = plan_.count[lane];
-            lanes_.set(0, lane, n ? (color_[lane] + sky_[lane]) / float(n) : vec3(0.0f));
-            lanes_.set(3, lane, n ? sky_[lane] / float(n) : vec3(0.0f));
-            lanes_.set(6, lane, n ? blocked_[lane] / float(n) : 0.0f);
+            const float n = float(plan_.count[lane]) / plan_.way[lane].factor;
+            lanes_.set(0, lane, n > 0 ? (color_[lane] + sky_[lane]) / n : vec3(0.0f));
+            lanes_.set(3, lane, n > 0 ? sky_[lane] / n : vec3(0.0f));
+            lanes_.set(6, lane, n > 0 ? blocked_[lane] / n : 0.0f);
         }
     }
 
