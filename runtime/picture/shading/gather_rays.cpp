@@ -10,6 +10,7 @@
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/picture/shading/rays/map_tables.h"
 
 namespace kinora {
 
@@ -153,22 +154,6 @@ GatherMemory& GatherRays::records_of(const Grid& grid, int nesting) {
     return *memories[index];
 }
 
-const EnvironmentTable* GatherRays::table_of(int32_t map) {
-    std::lock_guard lock(tables_mutex_);
-    auto found = tables_.find(map);
-    if (found == tables_.end()) {
-        std::vector<vec3> directions(EnvironmentTable::kCells), light(EnvironmentTable::kCells);
-        for (uint32_t c = 0; c < EnvironmentTable::kCells; ++c)
-            directions[c] = EnvironmentTable::middle(c);
-        light_of_map(*frame_.resources.textures, map, directions, EnvironmentTable::kWidth,
-                     light.data());
-        std::vector<float> brightness;
-        for (vec3 c : light) brightness.push_back(c.x + c.y + c.z);
-        found = tables_.emplace(map, EnvironmentTable(brightness)).first;
-    }
-    return found->second.uneven() ? &found->second : nullptr;
-}
-
 // Rays that cannot be shot meet nothing, and are left out where the statement has no use for that;
 // where the budget is spent there are none.
 int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
@@ -284,25 +269,22 @@ void GatherRays::Call::record(const SampleSpan& planned, std::span<Sent> sent,
     const raytrace::SampleSeries series = series_of(grid_, lanes_, lane, grid_.hits, hit);
     const Cone cone = made_.cone(lane);
     const bool by_brightness = map && weighs_ && !cone.by_cosine && cone.cosine < 0.999f;
-    const MapDirections over(cone, by_brightness ? all_.table_of(map) : nullptr, n);
+    const MapDirections over(cone, by_brightness ? all_.maps_.find(map) : nullptr, series.seed);
     for (size_t i = 0; i < planned.size(); ++i) {
         const uint32_t k = planned.number[i];
-        const vec3 dir = by_brightness ? over.direction(series.part * uint32_t(n) + k, series.seed)
+        const vec3 dir = by_brightness ? over.direction(series.part * uint32_t(n) + k)
                                        : made_.direction(lane, k);
         RayFacts facts{lanes_.triple(Row::P, lane), all_.frame_.camera_from_accel * dir,
                        lanes_.number(Row::Maxdist, lane)};
         if (by_brightness) way[i] = dir;
         if (by_brightness && shoots) sent[i] = Sent::Alone;
-        if (map)
-            facts.solid_angle = by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
+        if (map) facts.solid_angle = over.solid_angle(dir, n);
         if (by_brightness && facts.solid_angle == 0) {
             records_.at(k, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
             sent[i] = Sent::Not;
             continue;
         }
-        if (map)
-            light_of_map(*all_.frame_.resources.textures, map, {&dir, 1},
-                         over.width(facts.solid_angle), &facts.map_color);
+        if (map) light_of_map(*all_.frame_.resources.textures, map, {&dir, 1}, &facts.map_color);
         facts.solid_angle *= float(n) / float(samples(lane));  // records share the n rays
         record_ray(records_, of_ray_, k, lane, facts);
     }

@@ -14,6 +14,7 @@
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
+#include "runtime/picture/shading/rays/map_tables.h"
 #include "runtime/picture/shading/transmission.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/scene.h"
@@ -58,8 +59,9 @@ struct Shading::Objects {
     Transmission transmission{frame, kernels, lights, volumes};
     HitShader hits{frame, kernels, lights, transmission, volumes};
     RayQueue queue{frame, hits, transmission};
-    RayServices rays{frame, queue};
-    GatherRays gathers{frame, hits, queue};
+    MapTables maps{*frame.resources.textures};
+    RayServices rays{frame, queue, maps};
+    GatherRays gathers{frame, hits, queue, maps};
     Imager imager{frame, threads, kernels};
     Prints prints;
     Bakes bakes{frame.resources, frame.pose};
