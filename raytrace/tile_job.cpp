@@ -138,7 +138,7 @@ void TileJob::begin_rays(size_t begin, size_t end) {
     set(r.tfar, std::numeric_limits<float>::infinity());
     for (float* column : {r.time, r.t_passed}) set(column, 0.0f);
     set(r.sees, ~0u);
-    for (float* column : {r.share, r.weight}) set(column, 1.0f);
+    for (float* column : {r.share, r.allowance, r.weight}) set(column, 1.0f);
     for (uint32_t* column : {r.layer, r.medium, r.turns, r.spent}) set(column, 0u);
     for (size_t k = begin; k < end; ++k) r.slot[k] = uint32_t(k);
 }
@@ -419,6 +419,7 @@ void TileJob::composite(const HitBatch& hits) {
             pass_through(accel_, m_.rays, going_on, hits, k);
             m_.rays.turns[going_on] += m_.passages[k].turns;
             m_.rays.spent[going_on] += m_.passages[k].spent;
+            m_.rays.allowance[going_on] *= m_.passages[k].kept;
             m_.rays.weight[going_on] = largest_through(m_.rays.slot[going_on]);
             m_.rays.medium[going_on++] = medium;
         }

@@ -62,7 +62,7 @@ void carve(RayBatch& b, Carver& carver) {
     carver(b.window), carver(b.passed_first), carver(b.passed_last);
     carver(b.t_passed), carver(b.first_org);
     carver(b.pixel_x), carver(b.pixel_y), carver(b.sample), carver(b.layer), carver(b.medium);
-    carver(b.share), carver(b.weight), carver(b.turns), carver(b.spent);
+    carver(b.share), carver(b.allowance), carver(b.weight), carver(b.turns), carver(b.spent);
     carver(b.slot);
 }
 
@@ -358,7 +358,7 @@ void move_ray(RayBatch& r, size_t to, size_t from) {
     move(r.tnear), move(r.tfar), move(r.time), move(r.sees), move(r.t_passed), move(r.window);
     move(r.passed_first), move(r.passed_last);
     move(r.pixel_x), move(r.pixel_y), move(r.sample), move(r.share), move(r.medium), move(r.slot);
-    move(r.weight), move(r.turns), move(r.spent), move(r.layer);
+    move(r.allowance), move(r.weight), move(r.turns), move(r.spent), move(r.layer);
 }
 
 void pass_through(const Accel& accel, RayBatch& r, size_t to, const HitBatch& hits, size_t k) {

@@ -51,6 +51,7 @@ struct Passage {
     float onward = 1;    // what it sees there counts so many times
     uint32_t turns = 0;  // added to RayBatch::turns and spent
     uint32_t spent = 0;
+    float kept = 1;  // of RayBatch::allowance
 };
 
 // To be filled for all hits of the batch; the arrays have room for `count` rounded up to 16.
@@ -94,6 +95,8 @@ struct RayBatch {
     uint32_t* sample = nullptr;
     uint32_t* layer = nullptr;
     float* share = nullptr;      // of a camera ray's work that this one may make; 1 at the eye
+    float* allowance = nullptr;  // of the rays that may follow a camera ray, those after this one;
+                                 // 1 at the eye
     float* weight = nullptr;     // what the ray sees counts so much in the picture; 1 at the eye
     uint32_t* turns = nullptr;   // hits on its way that reflected some of it
     uint32_t* spent = nullptr;   // rays that the points it has passed have shot

@@ -64,6 +64,7 @@ struct WatchedPose {
 struct Reported {
     std::vector<bool> nodes;                                        // that are not finite
     std::set<std::pair<uint32_t, raytrace::GeometryIssue>> issues;  // of rows
+    bool fewer_samples = false;
 };
 
 struct Pose {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "expect_colors.h"
@@ -258,6 +259,83 @@ TEST(RayLimit, DoesNotCutACall) {
     EXPECT_EQ(r.count("RAY_LIMIT"), 0) << r.findings();
     EXPECT_GE(r.stats.rays, 16u * 4096u);
     EXPECT_NEAR(r.color(3, 1).x, wall_share(0.75, 0.8), 0.01);
+}
+
+// ---- rays of all depths -------------------------------------------------------------------------
+
+// The inside of a box whose walls send 1 and half of what `light` says that they get: after b
+// bounces 1 + 1/2 + ... + 1/2^b is seen.
+struct Box {
+    Box(const std::string& light, uint32_t limit, uint32_t bounces, uint32_t depth = 16) {
+        SceneText scene;
+        add_box(scene,
+                "surface box() { Oi = 1; normal n = faceforward(normalize(N), I); Ci = 1 + " +
+                    light + "; }");
+        SceneOptions options;
+        options.quality.ray_limit = limit;
+        options.quality.diffuse_depth = bounces;
+        options.quality.ray_depth = depth;
+        picture.emplace(scene.text(), options);
+        picture->frame(64, 64);
+    }
+    double rays() const { return double(picture->stats.rays) / (64 * 64); }
+    double mean_color() const { return mean(picture->film).x; }
+    int count(const char* code) const { return picture->count(code); }
+    std::optional<Rendering> picture;
+};
+
+TEST(RayLimit, IsOfIndirectRaysOfAllDepths) {
+    const std::string light = "0.5 * indirectdiffuse(P, n, 16)";
+    for (uint32_t limit : {30u, 100u, 1000u}) {
+        SCOPED_TRACE(limit);
+        Box box(light, limit, 4);
+        EXPECT_LE(box.rays(), limit);
+        EXPECT_GT(box.rays(), 16);
+        // At 30 one path of sixteen is followed behind the first bounce.
+        EXPECT_NEAR(box.mean_color(), 1.9375, limit == 30 ? 0.03 : 0.005);
+        EXPECT_EQ(box.count("RAY_SAMPLES"), 1) << box.picture->findings();
+    }
+    // 16 + 256 rays fit: each is sent.
+    Box all(light, 1000, 2);
+    EXPECT_EQ(all.rays(), 1 + 16 + 256);
+    EXPECT_EQ(all.picture->findings(), "");
+    EXPECT_NEAR(all.mean_color(), 1.75, 1e-5);
+}
+
+// As a public material has it: 256 samples wherever it is seen.
+TEST(RayLimit, HoldsForManySamplesAtEachHit) {
+    Box box("0.5 * indirectdiffuse(P, n, 256)", 1000, 3);
+    EXPECT_LE(box.rays(), 1000);
+    EXPECT_NEAR(box.mean_color(), 1.875, 0.005);
+}
+
+// A loop over what is gathered divides by the samples that it asked for, or sums solid angles.
+TEST(RayLimit, IsOfGatheredRaysOfAllDepths) {
+    const std::string gathered =
+        "surface box() { Oi = 1; normal n = faceforward(normalize(N), I); color c = 0, sum = 0;"
+        " gather(\"illuminance\", P, n, PI / 2, 64, \"distribution\", \"cosine\","
+        " \"surface:Ci\", c) sum += c; Ci = 1 + 0.5 * sum / 64; }";
+    SceneText scene;
+    add_box(scene, gathered);
+    SceneOptions options;
+    options.quality.ray_depth = 2;
+    Rendering cut(scene.text(), options);
+    cut.frame(16, 16);
+    EXPECT_LE(double(cut.stats.rays) / 256, 1000);
+    EXPECT_NEAR(mean(cut.film).x, 1.75, 1e-5) << cut.findings();
+    EXPECT_EQ(cut.count("RAY_SAMPLES"), 1) << cut.findings();
+    options.quality.ray_limit = 20000;
+    Rendering whole(scene.text(), options);
+    whole.frame(16, 16);
+    EXPECT_EQ(whole.stats.rays, 256u * (1 + 64 + 64 * 64));
+    EXPECT_EQ(whole.findings(), "");
+}
+
+// Two calls a hit share what there is, and neither is left out.
+TEST(RayLimit, IsSharedByTheCallsOfAPoint) {
+    Box box("0.25 * indirectdiffuse(P, n, 16) + 0.25 * indirectdiffuse(P, n, 8)", 1000, 3);
+    EXPECT_LE(box.rays(), 1000);
+    EXPECT_NEAR(box.mean_color(), 1.875, 0.01);
 }
 
 // The points behind one another along a camera ray share what it has.

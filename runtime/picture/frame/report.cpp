@@ -2,6 +2,7 @@
 #include "runtime/picture/frame/report_p.h"
 
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "runtime/base/parallel.h"
 #include "runtime/scene/description/findings.h"
@@ -134,6 +135,9 @@ void report_shading(const Scene& scene, Pose& pose, const ShadingCounters& shadi
     if (shading.unlit) diagnostics.report(Code::LIGHT_LIMIT, Location{}, kMostLightQuestions);
     if (shading.out_of_rays)
         diagnostics.report(Code::RAY_LIMIT, Location{}, shading.out_of_rays,
+                           scene.options.quality.ray_limit);
+    if (shading.thinned && !std::exchange(pose.reported.fewer_samples, true))
+        diagnostics.report(Code::RAY_SAMPLES, Location{}, shading.thinned,
                            scene.options.quality.ray_limit);
     if (pose.watch_dark > 0) --pose.watch_dark;
     if (shading.dark > shading.seen / 2) {

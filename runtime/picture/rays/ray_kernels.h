@@ -13,7 +13,7 @@ namespace kinora {
 inline constexpr int kSixteen = 16;
 
 // What a ray takes from its lane as it is, floats and integers alike: columns of a batch of rays.
-inline constexpr int kCarried = 14;
+inline constexpr int kCarried = 15;
 
 // Of sixteen lanes: where their rays leave and whither.
 struct alignas(64) RayLanes {

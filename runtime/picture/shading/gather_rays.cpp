@@ -10,6 +10,7 @@
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/picture/shading/rays/map_tables.h"
 
 namespace kinora {
 
@@ -108,6 +109,9 @@ class GatherRays::Call {
          std::span<const GatherResult> results, GatherRecords& records);
     // Marks the records that a lane has no sample for.
     void mark_absent(int most);
+    // Where a lane sent fewer rays than it has samples, these share them: sums and means over the
+    // samples are what so few would give.
+    void repeat_samples();
     void add(raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot);
     void meet(const SampleSpan& samples, const raytrace::RayBatch& rays,
               const raytrace::HitBatch& hits, const RayTag& tag);
@@ -116,7 +120,11 @@ class GatherRays::Call {
     // A sample's ray: none, one of its lane's cone, or one with a direction of its own.
     enum class Sent : uint8_t { Not, InCone, Alone };
     void set_lanes();
-    void record(const SampleSpan& samples, std::span<Sent> sent, std::span<vec3> way);
+    // Records of a lane; its rays are fewer where its budget is low.
+    int samples(int lane) const {
+        return plan_.count[lane] ? lanes_.samples(Row::Samples, lane) : 0;
+    }
+    void record(const SampleSpan& planned, std::span<Sent> sent, std::span<vec3> way);
     void add_along(raytrace::RayBatch& rays, int lane, uint32_t k, vec3 direction, uint32_t slot);
     // Of the hits: what the statement's results take from them.
     std::span<float*> columns_of(const raytrace::HitBatch& hits, const RayTag& tag, Arena& arena);
@@ -146,22 +154,6 @@ GatherMemory& GatherRays::records_of(const Grid& grid, int nesting) {
     return *memories[index];
 }
 
-const EnvironmentTable* GatherRays::table_of(int32_t map) {
-    std::lock_guard lock(tables_mutex_);
-    auto found = tables_.find(map);
-    if (found == tables_.end()) {
-        std::vector<vec3> directions(EnvironmentTable::kCells), light(EnvironmentTable::kCells);
-        for (uint32_t c = 0; c < EnvironmentTable::kCells; ++c)
-            directions[c] = EnvironmentTable::middle(c);
-        light_of_map(*frame_.resources.textures, map, directions, EnvironmentTable::kWidth,
-                     light.data());
-        std::vector<float> brightness;
-        for (vec3 c : light) brightness.push_back(c.x + c.y + c.z);
-        found = tables_.emplace(map, EnvironmentTable(brightness)).first;
-    }
-    return found->second.uneven() ? &found->second : nullptr;
-}
-
 // Rays that cannot be shot meet nothing, and are left out where the statement has no use for that;
 // where the budget is spent there are none.
 int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
@@ -176,7 +168,9 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
                        .unshot = !(flags & rsl::kGatherHitsOnly),
                        .turns = true};
     });
-    const int most = *std::max_element(std::begin(plan.count), std::end(plan.count));
+    int most = 0;
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
+        if (plan.count[lane]) most = std::max(most, lanes.samples(Row::Samples, lane));
     const int32_t handle = int32_t(kGatherSets) + level;
     grid.record_sets[size_t(handle)] = {};
     if (most == 0) return handle;
@@ -193,6 +187,7 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
         MeetSamples([&](const SampleSpan& samples, const raytrace::RayBatch& rays,
                         const raytrace::HitBatch& hits,
                         const RayTag& tag) { own.meet(samples, rays, hits, tag); }));
+    own.repeat_samples();
     grid.memory.arena.release(mark);
     grid.record_sets[size_t(handle)] = {most, memory.records.data()};
     return handle;
@@ -215,8 +210,15 @@ GatherRays::Call::Call(GatherRays& all, Grid& grid, const Lanes& lanes, const Ra
 
 void GatherRays::Call::mark_absent(int most) {
     for (int lane = 0; lane < jit::kMaxLanes; ++lane)
-        for (int k = plan_.count[lane]; k < most; ++k)
+        for (int k = samples(lane); k < most; ++k)
             records_.at(uint32_t(k), rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
+}
+
+void GatherRays::Call::repeat_samples() {
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
+        const uint32_t sent = uint32_t(plan_.count[lane]);
+        for (uint32_t k = sent; k < uint32_t(samples(lane)); ++k) records_.copy(k % sent, k, lane);
+    }
 }
 
 void GatherRays::Call::set_lanes() {
@@ -228,8 +230,8 @@ void GatherRays::Call::set_lanes() {
             made_.set_cone(lane, angle, plan_.count[lane]);
         else
             made_.set_straight(lane, way / glm::length(way));
-        made_.set_reach(lane, lanes_.number(Row::Maxdist, lane), lanes_.number(Row::Bias, lane),
-                        plan_.share[lane]);
+        made_.set_reach(lane, lanes_.number(Row::Maxdist, lane), lanes_.number(Row::Bias, lane));
+        made_.set_budget(lane, plan_.share[lane], plan_.allowance[lane]);
     }
 }
 
@@ -255,9 +257,9 @@ void GatherRays::Call::add(raytrace::RayBatch& rays, const SampleSpan& samples, 
 
 // Of samples of one lane: their rays as far as they are known, how they are sent and whither those
 // go that do not go as LaneRays would have them.
-void GatherRays::Call::record(const SampleSpan& samples, std::span<Sent> sent,
+void GatherRays::Call::record(const SampleSpan& planned, std::span<Sent> sent,
                               std::span<vec3> way) {
-    const int lane = samples.lane[0];
+    const int lane = planned.lane[0];
     const int32_t map = lanes_.integer(Row::Map, lane);
     const bool shoots = plan_.share[lane] > 0;
     std::fill(sent.begin(), sent.end(), shoots ? Sent::InCone : Sent::Not);
@@ -267,25 +269,23 @@ void GatherRays::Call::record(const SampleSpan& samples, std::span<Sent> sent,
     const raytrace::SampleSeries series = series_of(grid_, lanes_, lane, grid_.hits, hit);
     const Cone cone = made_.cone(lane);
     const bool by_brightness = map && weighs_ && !cone.by_cosine && cone.cosine < 0.999f;
-    const MapDirections over(cone, by_brightness ? all_.table_of(map) : nullptr, n);
-    for (size_t i = 0; i < samples.size(); ++i) {
-        const uint32_t k = samples.number[i];
-        const vec3 dir = by_brightness ? over.direction(series.part * uint32_t(n) + k, series.seed)
+    const MapDirections over(cone, by_brightness ? all_.maps_.find(map) : nullptr, series.seed);
+    for (size_t i = 0; i < planned.size(); ++i) {
+        const uint32_t k = planned.number[i];
+        const vec3 dir = by_brightness ? over.direction(series.part * uint32_t(n) + k)
                                        : made_.direction(lane, k);
         RayFacts facts{lanes_.triple(Row::P, lane), all_.frame_.camera_from_accel * dir,
                        lanes_.number(Row::Maxdist, lane)};
         if (by_brightness) way[i] = dir;
         if (by_brightness && shoots) sent[i] = Sent::Alone;
-        if (map)
-            facts.solid_angle = by_brightness ? over.solid_angle(dir) : solid_angle(cone, dir, n);
+        if (map) facts.solid_angle = over.solid_angle(dir, n);
         if (by_brightness && facts.solid_angle == 0) {
             records_.at(k, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherNone);
             sent[i] = Sent::Not;
             continue;
         }
-        if (map)
-            light_of_map(*all_.frame_.resources.textures, map, {&dir, 1},
-                         over.width(facts.solid_angle), &facts.map_color);
+        if (map) light_of_map(*all_.frame_.resources.textures, map, {&dir, 1}, &facts.map_color);
+        facts.solid_angle *= float(n) / float(samples(lane));  // records share the n rays
         record_ray(records_, of_ray_, k, lane, facts);
     }
 }
@@ -294,8 +294,9 @@ void GatherRays::Call::add_along(raytrace::RayBatch& rays, int lane, uint32_t k,
                                  uint32_t slot) {
     const RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(Row::P, lane));
     add_ray(rays, grid_, start, direction, lanes_.number(Row::Maxdist, lane),
-            lanes_.number(Row::Bias, lane), raytrace::hash(lanes_.seed(lane), k), slot,
-            plan_.share[lane]);
+            lanes_.number(Row::Bias, lane), raytrace::hash(lanes_.seed(lane), k), slot);
+    rays.share[rays.count - 1] = plan_.share[lane];
+    rays.allowance[rays.count - 1] = plan_.allowance[lane];
     spread_ray(rays, grid_, *start.hits, start.hit);
 }
 

@@ -223,7 +223,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
     for (size_t i = 0; result.passages && i < grid.rays.size(); ++i) {
         const PointRays& rays = grid.rays[i];
         const uint32_t before = hits.rays->spent[hits.ray[points[i]]];
-        result.passages[points[i]] = {rays.onward, rays.reflects, rays.shot - before};
+        result.passages[points[i]] = {rays.onward, rays.reflects, rays.shot - before, rays.kept};
     }
     const bool whole = frame_.insight.only_light == kNone;
     if (whole && frame_.pose.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);

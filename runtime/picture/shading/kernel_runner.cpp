@@ -120,8 +120,8 @@ void KernelRunner::start_accounts(Grid& grid) const {
 
 namespace {
 
-size_t ended_points(const Grid& grid) {
-    return size_t(std::ranges::count_if(grid.rays, &PointRays::ended));
+size_t count_points(const Grid& grid, bool PointRays::*flag) {
+    return size_t(std::ranges::count_if(grid.rays, flag));
 }
 
 }  // namespace
@@ -129,7 +129,8 @@ size_t ended_points(const Grid& grid) {
 void KernelRunner::run_noting(Grid& grid) const {
     Arena& arena = grid.memory.arena;
     const BoundKernel& bound = grid.look->full;
-    const size_t ended = ended_points(grid);
+    const size_t ended = count_points(grid, &PointRays::ended),
+                 thinned = count_points(grid, &PointRays::thinned);
     NotingHost host(grid, services_);
     // Its faults may come of what it does not know yet.
     bound.run({.count = grid.count(),
@@ -141,7 +142,8 @@ void KernelRunner::run_noting(Grid& grid) const {
                .host = host,
                .stop = frame_.stop},
               arena);
-    grid.memory.counters.out_of_rays -= ended_points(grid) - ended;
+    grid.memory.counters.out_of_rays -= count_points(grid, &PointRays::ended) - ended;
+    grid.memory.counters.thinned -= count_points(grid, &PointRays::thinned) - thinned;
     start_accounts(grid);
 }
 

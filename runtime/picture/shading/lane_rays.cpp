@@ -40,8 +40,10 @@ void inherit(raytrace::RayBatch& rays, size_t first, const raytrace::HitBatch& f
     if (from.rays) {
         copy_of_ray(from.rays->share, rays.share), copy_of_ray(from.rays->weight, rays.weight);
         copy_of_ray(from.rays->medium, rays.medium);
+        copy_of_ray(from.rays->allowance, rays.allowance);
     } else {
         fill(rays.share, 1.0f), fill(rays.weight, 1.0f), fill(rays.medium, 0u);
+        fill(rays.allowance, 1.0f);
     }
 }
 
@@ -73,7 +75,7 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P) {
 }
 
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
-             float tfar, float bias, uint32_t path, uint32_t slot, float share) {
+             float tfar, float bias, uint32_t path, uint32_t slot) {
     vec3 org;
     if (start.Ng != vec3(0.0f)) {
         org = raytrace::offset_ray_origin(start.P, start.error, start.Ng, dir);
@@ -89,7 +91,6 @@ void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, 
     if (!grid.frame.shaders.volumes.empty())
         rays.medium[i] = nested_medium(grid.frame, *start.hits, start.hit, dir);
     rays.sample[i] = path;
-    rays.share[i] = share;
     rays.slot[i] = slot;
 }
 
@@ -152,6 +153,7 @@ enum Carried {
     kPixelX = 6,
     kPixelY,
     kShare,
+    kAllowance,
     kWeight,
     kMedium,
     kTime,
@@ -299,11 +301,15 @@ void LaneRays::set_cone(int lane, float angle, int samples) {
     lane_.straight[lane] = 0;
 }
 
-void LaneRays::set_reach(int lane, float tfar, float bias, float share) {
+void LaneRays::set_reach(int lane, float tfar, float bias) {
     if (tfar >= kMiss) tfar = std::numeric_limits<float>::infinity();
     lane_.carried[kTfar][lane] = std::bit_cast<uint32_t>(tfar);
     lane_.carried[kTnear][lane] = std::bit_cast<uint32_t>(bias > 0 ? bias : 0.0f);
+}
+
+void LaneRays::set_budget(int lane, float share, float allowance) {
     lane_.carried[kShare][lane] = std::bit_cast<uint32_t>(share);
+    lane_.carried[kAllowance][lane] = std::bit_cast<uint32_t>(allowance);
 }
 
 void LaneRays::set_weight(int lane, float weight) {
@@ -373,6 +379,7 @@ void LaneRays::put(raytrace::RayBatch& rays, const RaySamples& samples, size_t c
     copy_row(made.carried[kPixelX], rays.pixel_x + at);
     copy_row(made.carried[kPixelY], rays.pixel_y + at);
     copy_row(made.carried[kShare], rays.share + at);
+    copy_row(made.carried[kAllowance], rays.allowance + at);
     copy_row(made.carried[kWeight], rays.weight + at);
     copy_row(made.carried[kMedium], rays.medium + at);
     copy_row(made.carried[kTnear], rays.tnear + at);

@@ -28,7 +28,7 @@ RayStart ray_start(const Grid& grid, size_t point, vec3 P);
 // A ray of a batch from there in a direction of any length but 0; `bias` >= 0 leaves out what is
 // nearer. Its length counts in units of the scene.
 void add_ray(raytrace::RayBatch& rays, const Grid& grid, const RayStart& start, vec3 dir,
-             float tfar, float bias, uint32_t path, uint32_t slot, float share = 1);
+             float tfar, float bias, uint32_t path, uint32_t slot);
 
 // Gives the ray added last the spread of the ray that saw `hit`, as far as directions go, and what
 // a curved mirror adds: without it the footprint stays as wide as it is at `hit`.
@@ -61,7 +61,9 @@ class LaneRays {
     void set_straight(int lane, vec3 unit);
     // In a cone about the way, of half the opening angle, so many samples.
     void set_cone(int lane, float angle, int samples);
-    void set_reach(int lane, float tfar, float bias, float share);
+    void set_reach(int lane, float tfar, float bias);
+    // RayBatch::share and allowance.
+    void set_budget(int lane, float share, float allowance);
     void set_weight(int lane, float weight);
 
     // The direction of a sample; the cone that it is in.

@@ -40,14 +40,18 @@ PointBudget budget_of(Grid& grid, size_t point) {
     budget.most_depth = grid.frame.quality.ray_depth;
     budget.most_refused = grid.frame.quality.ray_limit;
     budget.out_of_rays = &grid.memory.counters.out_of_rays;
+    budget.thinned = &grid.memory.counters.thinned;
     if (point < grid.calls.size()) budget.calls = &grid.calls[point];
     if (point >= grid.rays.size()) return budget;
     budget.account = &grid.rays[point];
     budget.most = float(grid.frame.quality.ray_limit);
     const PicturePoints& seen = grid.of_surface();  // a light spends what the lit points have
-    if (grid.depth == 0 || !seen.hits.rays) return budget;
-    const uint32_t of_seen = seen.points[point + (grid.lit ? grid.lit_first : 0)];
-    const float share = seen.hits.rays->share[seen.hits.ray[of_seen]];
+    budget.allowance = budget.most;
+    if (!seen.hits.rays) return budget;
+    const uint32_t of_seen = seen.hits.ray[seen.points[point + (grid.lit ? grid.lit_first : 0)]];
+    budget.allowance *= seen.hits.rays->allowance[of_seen];
+    if (grid.depth == 0) return budget;
+    const float share = seen.hits.rays->share[of_seen];
     budget.most = std::max(kLeastRays, budget.most * share);
     return budget;
 }
@@ -57,7 +61,7 @@ PointBudget budget_of(Grid& grid, size_t point) {
 namespace {
 
 constexpr float kLeastWeight = 1.0f / 256;  // of rays that are followed in any case
-constexpr uint32_t kWaySalt = 0x3c6ef372u;
+constexpr uint32_t kWaySalt = 0x3c6ef372u, kPathSalt = 0x78dde6e4u;
 
 // A number in [0, 1) for the choice at a hit: stratified over the samples of a pixel where these
 // are known.
@@ -118,12 +122,13 @@ Leave may_leave(const RayKindRow& row, const Grid& grid) {
 struct LanePlan {
     int count = 0;
     float share = 0;
+    float allowance = 0;
     TracedRay way;
 };
 
 LanePlan plan_by_share(Leave leave, Grid& grid, size_t point, const RayWish& wish) {
     LanePlan plan;
-    if (!wish.shoots) return {wish.samples, 0, {}};
+    if (!wish.shoots) return {wish.samples, 0, 0, {}};
     const PointBudget budget = budget_of(grid, point);
     auto refuse = [&] {
         const bool more = refuse_rays(budget, wish.samples);
@@ -135,17 +140,44 @@ LanePlan plan_by_share(Leave leave, Grid& grid, size_t point, const RayWish& wis
     const float share = ray_share(budget, wish.samples);
     if (share == 0) return refuse();
     plan.way = choose_way(grid, point, budget.account, wish.weight, wish.through);
-    if (!(plan.way.factor > 0) || !spend_rays(budget, wish.samples)) return plan;
-    plan.count = wish.samples;
+    if (!(plan.way.factor > 0)) return plan;
+    const AllowedCall allowed = allow_rays(budget, wish.samples);
+    if (!spend_rays(budget, allowed.samples)) return plan;
+    plan.count = allowed.samples;
     plan.share = share;
+    plan.allowance = allowed.each;
     return plan;
 }
 
-LanePlan plan_by_fit(Leave leave, const PointBudget& budget, const RayWish& wish) {
-    LanePlan plan{wish.samples, 0, {}};
+// Of a point, and each call its own: paths are followed at random by it.
+float number_of_call(const Grid& grid, size_t point, const PointBudget& budget) {
+    const uint32_t hit = grid.points[std::min(point, grid.count() - 1)];
+    const uint32_t call = budget.account ? budget.account->calls : 0u;
+    return float(raytrace::unit_interval(
+        raytrace::hash(random_of(grid.hits, hit, grid.frame.seed), call, kPathSalt) & ~0xffu));
+}
+
+// Bounces that a path from the grid's points may take.
+uint32_t bounces_left(const Grid& grid) {
+    const Quality& quality = grid.frame.quality;
+    return std::min(quality.ray_depth - grid.depth, quality.diffuse_depth - grid.ray.diffuse);
+}
+
+void fit_to_allowance(const Grid& grid, size_t point, const PointBudget& budget, LanePlan& plan) {
+    const AllowedCall allowed =
+        allow_path(budget, plan.count, bounces_left(grid), number_of_call(grid, point, budget));
+    plan.count = allowed.samples;
+    plan.allowance = allowed.each;
+    plan.way.factor = allowed.factor;
+}
+
+LanePlan plan_by_fit(Leave leave, Grid& grid, size_t point, const RayWish& wish) {
+    const PointBudget budget = budget_of(grid, point);
+    LanePlan plan{wish.samples, 0, 0, {}};
     const bool shoots = wish.shoots && wish.aims;
     if (leave == Leave::Yes) {
         plan.share = fit_samples(budget, plan.count);
+        if (shoots) fit_to_allowance(grid, point, budget, plan);
         if (shoots && !spend_rays(budget, plan.count)) plan.count = 0;
     } else {
         if (shoots) refuse_rays(budget, plan.count);
@@ -157,7 +189,7 @@ LanePlan plan_by_fit(Leave leave, const PointBudget& budget, const RayWish& wish
 
 LanePlan plan_by_samples(Leave leave, const PointBudget& budget, const RayWish& wish) {
     const bool shoots = leave == Leave::Yes && wish.aims;
-    return {shoots ? spend_samples(budget, wish.samples) : 0, 1, {}};
+    return {shoots ? spend_samples(budget, wish.samples) : 0, 1, 0, {}};
 }
 
 LanePlan plan_lane(const RayKindRow& row, Leave leave, Grid& grid, size_t point,
@@ -166,13 +198,13 @@ LanePlan plan_lane(const RayKindRow& row, Leave leave, Grid& grid, size_t point,
         case RayBudget::Share:
             return plan_by_share(leave, grid, point, wish);
         case RayBudget::Fit:
-            return plan_by_fit(leave, budget_of(grid, point), wish);
+            return plan_by_fit(leave, grid, point, wish);
         case RayBudget::Samples:
             return plan_by_samples(leave, budget_of(grid, point), wish);
         case RayBudget::Free:
             break;
     }
-    return {wish.samples, 1, {}};
+    return {wish.samples, 1, 0, {}};
 }
 
 }  // namespace
@@ -195,6 +227,7 @@ RayPlan RayQueue::plan(RayKind kind, Grid& grid, const Lanes& lanes,
         const LanePlan own = plan_lane(row, leave, grid, lanes.point(lane), wish);
         plan.count[lane] = waits ? 0 : own.count;
         plan.share[lane] = own.share;
+        plan.allowance[lane] = own.allowance / float(frame_.quality.ray_limit);
         plan.way[lane] = own.way;
     }
     return plan;
@@ -360,6 +393,7 @@ void RayQueue::see_layer(raytrace::RayBatch& rays, const raytrace::HitBatch& hit
         rays.weight[kept] *= std::max({passing.x, passing.y, passing.z}) * passage.onward;
         rays.turns[kept] += passage.turns;
         rays.spent[kept] += passage.spent;
+        rays.allowance[kept] *= passage.kept;
         rays.medium[kept++] = medium;
     }
     rays.passing = true;

@@ -2,23 +2,22 @@
 // for one lane group of a grid.
 #pragma once
 
-#include <map>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "runtime/picture/shading/grid.h"
 #include "runtime/picture/shading/rays/gather_records.h"
-#include "runtime/scene/images/environment_table.h"
 
 namespace kinora {
 
 class HitShader;
+class MapTables;
 class RayQueue;
 
 class RayServices {
   public:
-    RayServices(const ShadingFrame& frame, RayQueue& queue) : frame_(frame), queue_(queue) {}
+    RayServices(const ShadingFrame& frame, RayQueue& queue, MapTables& maps)
+        : frame_(frame), queue_(queue), maps_(maps) {}
 
     void trace(Grid& grid, const jit::ServiceCall& call);
     void transmission(Grid& grid, const jit::ServiceCall& call);
@@ -28,12 +27,13 @@ class RayServices {
   private:
     const ShadingFrame& frame_;
     RayQueue& queue_;
+    MapTables& maps_;
 };
 
 class GatherRays {
   public:
-    GatherRays(const ShadingFrame& frame, HitShader& hits, RayQueue& queue)
-        : frame_(frame), hits_(hits), queue_(queue) {}
+    GatherRays(const ShadingFrame& frame, HitShader& hits, RayQueue& queue, MapTables& maps)
+        : frame_(frame), hits_(hits), queue_(queue), maps_(maps) {}
 
     void begin_frame(size_t threads);
     // All rays of a statement; the handle of its records.
@@ -42,16 +42,13 @@ class GatherRays {
   private:
     class Call;
     GatherMemory& records_of(const Grid& grid, int nesting);
-    // Null where the map's light does not come from a small part of it.
-    const EnvironmentTable* table_of(int32_t map);
 
     const ShadingFrame& frame_;
     HitShader& hits_;
     RayQueue& queue_;
+    MapTables& maps_;
     // [thread][depth and nesting]
     std::vector<std::vector<std::unique_ptr<GatherMemory>>> memories_;
-    std::mutex tables_mutex_;
-    std::map<int32_t, EnvironmentTable> tables_;  // by map
 };
 
 }  // namespace kinora

@@ -14,6 +14,7 @@
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
+#include "runtime/picture/shading/rays/map_tables.h"
 #include "runtime/picture/shading/transmission.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/scene.h"
@@ -29,6 +30,7 @@ void ShadingCounters::operator+=(const ShadingCounters& o) {
     too_deep += o.too_deep;
     unlit += o.unlit;
     out_of_rays += o.out_of_rays;
+    thinned += o.thinned;
     kernel_points += o.kernel_points;
     kernel_lanes += o.kernel_lanes;
     seen += o.seen;
@@ -56,8 +58,9 @@ struct Shading::Objects {
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
     HitShader hits{frame, kernels, lights, transmission, volumes};
-    RayServices rays{frame, hits.queue()};
-    GatherRays gathers{frame, hits, hits.queue()};
+    MapTables maps{*frame.resources.textures};
+    RayServices rays{frame, hits.queue(), maps};
+    GatherRays gathers{frame, hits, hits.queue(), maps};
     Imager imager{frame, threads, kernels};
     Prints prints;
     Bakes bakes{frame.resources, frame.pose};

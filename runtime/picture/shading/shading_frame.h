@@ -35,6 +35,7 @@ struct ShadingCounters {
     uint64_t too_deep = 0;          // rays that met more surfaces than are seen through
     uint64_t unlit = 0;             // questions for lights beyond kMostLightQuestions
     uint64_t out_of_rays = 0;       // points that asked for more rays than they may shoot
+    uint64_t thinned = 0;           // points that took fewer samples than they asked for
     uint64_t kernel_points = 0, kernel_lanes = 0;  // of all launches; lanes in whole registers
     uint64_t seen = 0, dark = 0;  // hits of the camera that show anything; of those, unlit ones
     void operator+=(const ShadingCounters& o);

@@ -11,6 +11,7 @@
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/picture/shading/rays/map_tables.h"
 #include "runtime/picture/shading/rays/smooth_surface.h"
 #include "runtime/picture/shading/volumes.h"
 
@@ -23,11 +24,6 @@ constexpr int kLanes = jit::kMaxLanes;
 bool has_direction(vec3 d) {
     float length = glm::length(d);
     return length > 0 && length < kMiss;
-}
-
-// Each sample stands for its share of the hemisphere.
-float sample_width(int samples) {
-    return std::sqrt(2 * float(kPi) / float(samples));
 }
 
 // body(begin, end, map) for each run of rays of one lane that has a map.
@@ -70,9 +66,9 @@ class TraceRays {
             if (plan.count[lane] == 0) continue;
             rays_->set_straight(lane, glm::normalize(rays_->way(lane)));
             if (lanes_.number(Spread, lane) > 0)
-                rays_->set_cone(lane, lanes_.number(Spread, lane), count(lane));
-            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane),
-                             plan.share[lane]);
+                rays_->set_cone(lane, lanes_.number(Spread, lane), plan.count[lane]);
+            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane));
+            rays_->set_budget(lane, plan.share[lane], plan.allowance[lane]);
             rays_->set_weight(lane, plan.way[lane].weight);
         }
         return *rays_;
@@ -107,7 +103,7 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
     queue_.send({RayKind::Trace, grid, lanes, plan, TraceRays::Rows, TraceRays::Label}, add,
                 SumSamples(sum));
     for (int lane = 0; lane < kLanes; ++lane) {
-        int n = lanes.asks(lane) ? along.count(lane) : 1;
+        const int n = plan.count[lane];
         if (n > 1) color[lane] /= float(n);
         float factor = plan.way[lane].factor;
         lanes.set(0, lane, factor == 1 ? color[lane] : color[lane] * factor);
@@ -274,41 +270,104 @@ void RayServices::transmission(Grid& grid, const jit::ServiceCall& call) {
 
 namespace {
 
-// Rays in a cone about N, denser along it.
+// Rays in a cone about N, denser along it. Lanes with a map whose light comes from a small part of
+// it send half of them there.
 class ConeRays {
   public:
     enum { P = 2, N = 5, Samples = 8, Angle, Maxdist, Bias, More };
 
-    ConeRays(const Grid& grid, const Lanes& lanes) : grid_(grid), lanes_(lanes) {}
+    // `map`: a row of the arguments.
+    ConeRays(const Grid& grid, const Lanes& lanes, int map, MapTables& maps)
+        : grid_(grid), lanes_(lanes), map_(map), maps_(maps) {}
 
     int count(int lane) const { return lanes_.samples(Samples, lane); }
     bool aims(int lane) const { return grid_.shadows && has_direction(lanes_.triple(N, lane)); }
-    // Made when they are first asked for.
-    LaneRays& rays(const RayPlan& plan) {
-        if (rays_) return *rays_;
-        rays_.emplace(grid_, lanes_, P, N, true);
-        for (int lane = 0; lane < kLanes; ++lane) {
-            if (!lanes_.asks(lane)) continue;
-            rays_->set_cone(lane, lanes_.number(Angle, lane), plan.count[lane]);
-            rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane),
-                             plan.share[lane]);
-        }
-        return *rays_;
+    void add(raytrace::RayBatch& rays, const RayPlan& plan, const SampleSpan& samples,
+             uint32_t slot);
+    vec3 direction(const RayPlan& plan, int lane, uint32_t k) {
+        LaneRays& made = made_rays(plan);
+        return to_map_[lane] ? over_[lane].direction(first_[lane] + k) : made.direction(lane, k);
+    }
+    bool counts(const RayPlan& plan, int lane, uint32_t k) {
+        made_rays(plan);
+        return !to_map_[lane] || weight(lane, direction(plan, lane, k)) > 0;
+    }
+    // What a sample counts, on the average 1.
+    float weight(int lane, vec3 direction) const {
+        return to_map_[lane] ? over_[lane].weight(direction) : 1.0f;
     }
 
   private:
+    LaneRays& made_rays(const RayPlan& plan);
+    void aim_at_map(const RayPlan& plan, int lane);
+    void add_to_map(raytrace::RayBatch& rays, const RayPlan& plan, int lane, uint32_t k,
+                    uint32_t slot);
+
     const Grid& grid_;
     const Lanes& lanes_;
+    const int map_;
+    MapTables& maps_;
     std::optional<LaneRays> rays_;
+    bool to_map_[kLanes] = {};  // lanes that send rays to their map
+    MapDirections over_[kLanes];
+    uint32_t first_[kLanes] = {};  // sample of such a lane
 };
+
+// Made when they are first asked for.
+LaneRays& ConeRays::made_rays(const RayPlan& plan) {
+    if (rays_) return *rays_;
+    rays_.emplace(grid_, lanes_, P, N, true);
+    for (int lane = 0; lane < kLanes; ++lane) {
+        if (!lanes_.asks(lane)) continue;
+        rays_->set_cone(lane, lanes_.number(Angle, lane), plan.count[lane]);
+        rays_->set_reach(lane, lanes_.number(Maxdist, lane), lanes_.number(Bias, lane));
+        rays_->set_budget(lane, plan.share[lane], plan.allowance[lane]);
+    }
+    for (int lane = 0; lane < kLanes; ++lane)
+        if (plan.count[lane] > 0 && lanes_.integer(map_, lane)) aim_at_map(plan, lane);
+    return *rays_;
+}
+
+void ConeRays::aim_at_map(const RayPlan& plan, int lane) {
+    const EnvironmentTable* table = maps_.find(lanes_.integer(map_, lane));
+    if (!table) return;
+    const RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(P, lane));
+    const raytrace::SampleSeries series = series_of(grid_, lanes_, lane, *start.hits, start.hit);
+    to_map_[lane] = true;
+    over_[lane] = MapDirections(rays_->cone(lane), table, series.seed);
+    first_[lane] = series.part * uint32_t(plan.count[lane]);
+}
+
+void ConeRays::add(raytrace::RayBatch& rays, const RayPlan& plan, const SampleSpan& samples,
+                   uint32_t slot) {
+    LaneRays& made = made_rays(plan);
+    for (size_t i = 0, n; i < samples.size(); i += n) {
+        const bool to_map = to_map_[samples.lane[i]];
+        for (n = 1; i + n < samples.size() && to_map_[samples.lane[i + n]] == to_map;) ++n;
+        if (!to_map) made.add(rays, samples.subspan(i, n), slot + uint32_t(i));
+        for (size_t j = i; to_map && j < i + n; ++j)
+            add_to_map(rays, plan, samples.lane[j], samples.number[j], slot + uint32_t(j));
+    }
+}
+
+void ConeRays::add_to_map(raytrace::RayBatch& rays, const RayPlan& plan, int lane, uint32_t k,
+                          uint32_t slot) {
+    const RayStart start = ray_start(grid_, lanes_.point(lane), lanes_.triple(P, lane));
+    add_ray(rays, grid_, start, direction(plan, lane, k), lanes_.number(Maxdist, lane),
+            lanes_.number(Bias, lane), raytrace::hash(lanes_.seed(lane), first_[lane] + k), slot);
+    spread_ray(rays, grid_, *start.hits, start.hit);
+    rays.share[rays.count - 1] = plan.share[lane];
+    rays.allowance[rays.count - 1] = plan.allowance[lane];
+}
 
 // What occlusion finds, lane by lane.
 class OcclusionSum {
   public:
     enum { Falloff = ConeRays::More, Mode, Map };
 
-    OcclusionSum(TextureStore& textures, const Lanes& lanes, const RayPlan& plan)
-        : textures_(textures), lanes_(lanes), plan_(plan) {}
+    OcclusionSum(TextureStore& textures, const Lanes& lanes, const RayPlan& plan,
+                 const ConeRays& cone)
+        : textures_(textures), lanes_(lanes), plan_(plan), cone_(cone) {}
 
     bool by_distance(int lane) const { return lanes_.number(Falloff, lane) > 0; }
     // `direction`: of each sample.
@@ -338,6 +397,7 @@ class OcclusionSum {
     TextureStore& textures_;
     const Lanes& lanes_;
     const RayPlan& plan_;
+    const ConeRays& cone_;
     float blocked_[kLanes] = {};
     vec3 open_[kLanes] = {}, sky_[kLanes] = {};
 };
@@ -355,14 +415,15 @@ void OcclusionSum::add(const SampleSpan& samples, std::span<const SeenByRay> see
             hidden *= left;
             if (hidden > 0) through[i] = vec3(1.0f) - (vec3(1.0f) - through[i]) * left;
         }
-        blocked_[lane] += hidden;
-        open_[lane] += (1 - hidden) * direction[i];
+        const float weight = cone_.weight(lane, direction[i]);
+        through[i] *= weight;
+        blocked_[lane] += hidden * weight;
+        open_[lane] += (1 - hidden) * weight * direction[i];
     }
     std::span<vec3> light = arena.allocate_span<vec3>(seen.size());
     for_each_map(lanes_, Map, samples.lane, [&](size_t begin, size_t end, int32_t map) {
         const int lane = samples.lane[begin];
-        light_of_map(textures_, map, direction.subspan(begin, end - begin),
-                     sample_width(plan_.count[lane]), light.data());
+        light_of_map(textures_, map, direction.subspan(begin, end - begin), light.data());
         for (size_t i = begin; i < end; ++i) sky_[lane] += through[i] * light[i - begin];
     });
     arena.release(mark);
@@ -373,11 +434,11 @@ void OcclusionSum::add(const SampleSpan& samples, std::span<const SeenByRay> see
 void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
     Arena& arena = grid.memory.arena;
-    ConeRays cone(grid, lanes);
+    ConeRays cone(grid, lanes, OcclusionSum::Map, maps_);
     const RayPlan plan = queue_.plan(RayKind::Occlusion, grid, lanes, [&](int lane) {
         return RayWish{.samples = cone.count(lane), .aims = cone.aims(lane)};
     });
-    OcclusionSum sum(*frame_.resources.textures, lanes, plan);
+    OcclusionSum sum(*frame_.resources.textures, lanes, plan, cone);
     RayCall rays_of{RayKind::Occlusion, grid, lanes, plan};
     for (int lane = 0; lane < kLanes; ++lane)
         rays_of.distances |= plan.count[lane] > 0 && sum.by_distance(lane);
@@ -386,7 +447,7 @@ void RayServices::occlusion(Grid& grid, const jit::ServiceCall& call) {
     queue_.send(
         rays_of,
         [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
-            cone.rays(plan).add(rays, samples, slot);
+            cone.add(rays, plan, samples, slot);
             for (size_t i = 0; i < samples.size(); ++i) directions[i] = triple(rays.dir, i);
         },
         SumSamples([&](const SampleSpan& samples, std::span<const SeenByRay> seen) {
@@ -410,10 +471,10 @@ class IndirectSum {
              Arena& arena);
     void put() const {
         for (int lane = 0; lane < kLanes; ++lane) {
-            int n = plan_.count[lane];
-            lanes_.set(0, lane, n ? (color_[lane] + sky_[lane]) / float(n) : vec3(0.0f));
-            lanes_.set(3, lane, n ? sky_[lane] / float(n) : vec3(0.0f));
-            lanes_.set(6, lane, n ? blocked_[lane] / float(n) : 0.0f);
+            const float n = float(plan_.count[lane]) / plan_.way[lane].factor;
+            lanes_.set(0, lane, n > 0 ? (color_[lane] + sky_[lane]) / n : vec3(0.0f));
+            lanes_.set(3, lane, n > 0 ? sky_[lane] / n : vec3(0.0f));
+            lanes_.set(6, lane, n > 0 ? blocked_[lane] / n : 0.0f);
         }
     }
 
@@ -428,19 +489,24 @@ class IndirectSum {
 void IndirectSum::add(const SampleSpan& samples, std::span<const SeenByRay> seen, ConeRays& cone,
                       Arena& arena) {
     Arena::Mark mark = arena.mark();
+    std::span<float> weight = arena.allocate_span<float>(seen.size());
+    std::fill(weight.begin(), weight.end(), 1.0f);
     for_each_map(lanes_, Map, samples.lane, [&](size_t begin, size_t end, int32_t map) {
         const int lane = samples.lane[begin];
         std::span<vec3> directions = arena.allocate_span<vec3>(end - begin);
         std::span<vec3> light = arena.allocate_span<vec3>(end - begin);
+        for (size_t i = begin; i < end; ++i) {
+            directions[i - begin] = cone.direction(plan_, lane, samples.number[i]);
+            weight[i] = cone.weight(lane, directions[i - begin]);
+        }
+        light_of_map(textures_, map, directions, light.data());
         for (size_t i = begin; i < end; ++i)
-            directions[i - begin] = cone.rays(plan_).direction(lane, samples.number[i]);
-        light_of_map(textures_, map, directions, sample_width(plan_.count[lane]), light.data());
-        for (size_t i = begin; i < end; ++i) sky_[lane] += seen[i].open * light[i - begin];
+            sky_[lane] += weight[i] * seen[i].open * light[i - begin];
     });
     for (size_t i = 0; i < seen.size(); ++i) {
         const vec3 open = seen[i].open;
-        color_[samples.lane[i]] += seen[i].color;
-        blocked_[samples.lane[i]] += 1 - (open.x + open.y + open.z) / 3;
+        color_[samples.lane[i]] += weight[i] * seen[i].color;
+        blocked_[samples.lane[i]] += weight[i] * (1 - (open.x + open.y + open.z) / 3);
     }
     arena.release(mark);
 }
@@ -451,7 +517,7 @@ void IndirectSum::add(const SampleSpan& samples, std::span<const SeenByRay> seen
 // are followed, the later ones with fewer rays.
 void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     Lanes lanes(call);
-    ConeRays cone(grid, lanes);
+    ConeRays cone(grid, lanes, IndirectSum::Map, maps_);
     auto reaches = [&](int lane) { return lanes.number(ConeRays::Maxdist, lane) > 0; };
     const RayPlan plan = queue_.plan(RayKind::Indirect, grid, lanes, [&](int lane) {
         return RayWish{.samples = cone.count(lane),
@@ -464,11 +530,13 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
         {RayKind::Indirect, grid, lanes, plan, IndirectSum::Rows},
         [&](raytrace::RayBatch& rays, const SampleSpan& planned, uint32_t slot) {
             auto shoots = [&](size_t at) {
-                return plan.share[planned.lane[at]] > 0 && reaches(planned.lane[at]);
+                const int lane = planned.lane[at];
+                return plan.share[lane] > 0 && reaches(lane) &&
+                       cone.counts(plan, lane, planned.number[at]);
             };
             for (size_t i = 0, n; i < planned.size(); i += n) {  // runs that are shot or not
                 for (n = 1; i + n < planned.size() && shoots(i + n) == shoots(i);) ++n;
-                if (shoots(i)) cone.rays(plan).add(rays, planned.subspan(i, n), slot + uint32_t(i));
+                if (shoots(i)) cone.add(rays, plan, planned.subspan(i, n), slot + uint32_t(i));
             }
         },
         SumSamples([&](const SampleSpan& samples, std::span<const SeenByRay> seen) {

@@ -8,28 +8,36 @@
 
 namespace kinora {
 
-// The sphere in cells of one solid angle: rows of equal height along y, columns of equal angle.
+// The sphere in cells: rows of equal angle from the top (y = 1), columns of equal angle about y.
+struct SphereCells {
+    uint32_t columns, rows;
+
+    uint32_t count() const { return columns * rows; }
+    vec3 middle(uint32_t cell) const { return at(cell, {0.5f, 0.5f}); }
+    // `within` the cell, in [0, 1] squared: even in solid angle.
+    vec3 at(uint32_t cell, vec2 within) const;
+    uint32_t cell_of(vec3 direction) const;
+    double solid_angle(uint32_t row) const;
+};
+
 class EnvironmentTable {
   public:
-    static constexpr uint32_t kColumns = 128, kRows = 64, kCells = kColumns * kRows;
-    // Edge of a cell, radians.
-    static constexpr float kWidth = 0.0391f;  // root of 4 pi / kCells
-
-    static vec3 middle(uint32_t cell) { return at(cell, {0.5f, 0.5f}); }
-    // Of each cell; what is not above 0 counts as 0.
-    explicit EnvironmentTable(std::span<const float> brightness);
+    // Brightness of each cell; what is not above 0 counts as 0.
+    EnvironmentTable(SphereCells cells, std::span<const float> brightness);
 
     // Whether so small a part is bright that directions by brightness find more than even ones.
     bool uneven() const { return uneven_; }
-    // For u in [0, 1) squared: cells by their brightness, even within each.
+    // For u in [0, 1) squared: cells by their light, even within each.
     vec3 direction(dvec2 u) const;
     // Of those directions, per solid angle, at a direction of length 1.
     float density(vec3 direction) const;
 
   private:
-    static vec3 at(uint32_t cell, vec2 within);
+    void add_row(uint32_t row, std::span<const double> light);
 
-    std::vector<float> below_;  // shares of the cells before and with each, summed
+    SphereCells cells_;
+    std::vector<double> below_row_;  // light of the rows before and with each, summed
+    std::vector<float> below_;       // of a row's: shares of the cells before and with each
     bool uneven_ = false;
 };
 

@@ -13,6 +13,8 @@ namespace {
 // shoot more: what they lack shows.
 constexpr float kCallCost = 0.29f, kLeastShare[] = {0, 1.0f / 1024, 1.0f / 128, 1.0f / 64};
 constexpr int kUsualDepth = 16;
+// Of a path that is followed at random: less would show as single bright pixels.
+constexpr float kLeastChance = 1.0f / 16;
 
 // What a point's next call has for all its rays.
 float share_left(const PointBudget& budget) {
@@ -29,6 +31,33 @@ float least_share(const PointBudget& budget) {
     const float least = kLeastShare[std::min(budget.depth, 3u)];
     const int deeper = int(budget.most_depth) - kUsualDepth;
     return deeper > 0 ? least * std::pow(1 + kCallCost, -float(deeper)) : least;
+}
+
+// A call's own rays are taken from what its point has left, and the rays have this part of the rest
+// for what follows: 2/3, 1/2, 1/3, ..., so that later calls and what goes on behind the point have
+// some. One ray alone leaves half.
+float part_of_rest(const PointRays& account, int rays) {
+    if (account.calls == 1 && rays > 1) return 2 / 3.0f;
+    return 1 / std::max(2.0f, float(account.calls));
+}
+
+float left_of(const PointBudget& budget) {
+    return budget.allowance * budget.account->kept;
+}
+
+// The allowance of each of so many rays of a call. Never 0: calls behind them have a chance.
+float give(const PointBudget& budget, int rays) {
+    PointRays& account = *budget.account;
+    if (account.calls < 0xffff) ++account.calls;
+    const float rest = std::max(left_of(budget) - float(rays), left_of(budget) / 4);
+    const float part = part_of_rest(account, rays);
+    account.kept = rest * (1 - part) / budget.allowance;
+    return rest * part / float(rays);
+}
+
+void note_thinned(const PointBudget& budget) {
+    *budget.thinned += !budget.account->thinned;
+    budget.account->thinned = true;
 }
 
 void end_account(const PointBudget& budget) {
@@ -69,6 +98,29 @@ int spend_samples(const PointBudget& budget, int n) {
         n = std::min(n, std::max(1, int(left)));
     }
     return spend_rays(budget, n) ? n : 0;
+}
+
+AllowedCall allow_path(const PointBudget& budget, int samples, uint32_t bounces, float number) {
+    if (!budget.account) return {samples, 0, 1};
+    if (budget.depth == 0) return {samples, give(budget, samples), 1};
+    const float paths = left_of(budget) / float(bounces);
+    const int fitting = int(std::min(paths, float(samples)));
+    if (fitting < samples) note_thinned(budget);
+    if (fitting > 0) return {fitting, give(budget, fitting), 1};
+    const float chance = std::max(kLeastChance, paths);
+    give(budget, 1);
+    if (number >= chance) return {};
+    return {1, float(bounces - 1), 1 / chance};
+}
+
+AllowedCall allow_rays(const PointBudget& budget, int samples) {
+    if (!budget.account) return {samples, 0, 1};
+    int fitting = samples;
+    if (budget.depth > 0 && samples > 1)
+        fitting = std::max(1, int(std::min(left_of(budget) / 2, float(samples))));
+    while (samples % fitting != 0) --fitting;
+    if (fitting < samples) note_thinned(budget);
+    return {fitting, give(budget, fitting), 1};
 }
 
 bool refuse_rays(const PointBudget& budget, int n) {

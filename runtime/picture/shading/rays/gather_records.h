@@ -40,6 +40,11 @@ class GatherRecords {
         return memory_.values[(size_t(record) * size_t(width_) + size_t(column)) * jit::kMaxLanes +
                               size_t(lane)];
     }
+    // Makes record `to` of a lane what record `from` is.
+    void copy(uint32_t from, uint32_t to, int lane) {
+        for (int column = 0; column < width_; ++column)
+            at(to, column, lane) = at(from, column, lane);
+    }
     void set(uint32_t record, int column, int lane, vec3 v) {
         for (int k = 0; k < 3; ++k) at(record, column + k, lane) = v[k];
     }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <span>
@@ -16,49 +15,47 @@ namespace kinora {
 
 class TextureStore;
 
-// Light of an environment map along directions in world space, filtered over `width` radians.
-void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, float width,
-                  vec3* light);
+// Light of an environment map along directions in world space. Looks are as wide as a texel: wider
+// ones would see light from outside a cone, or light that other directions count.
+void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, vec3* light);
 
-// The directions of one lane over a map: of n, every other one by the map's brightness where a
-// table is given, the rest over the cone. The solid angle of each is 1 over the density of them all
-// (E. Veach's balance heuristic), so sums over solid angles have the mean of even directions.
+// The directions of one lane over a map: every other one by the map's brightness where a table is
+// given, the rest over the cone. Which of the two come first is drawn at random, so that one alone
+// may be either. A direction counts 1 over the density of them all (E. Veach's balance heuristic),
+// so sums have the mean of directions in the cone.
 class MapDirections {
   public:
-    MapDirections(const Cone& cone, const EnvironmentTable* table, int n)
-        : cone_(cone), table_(n > 1 ? table : nullptr), of_table_(table_ ? n / 2 : 0), n_(n) {}
+    MapDirections() = default;
+    MapDirections(const Cone& cone, const EnvironmentTable* table, uint32_t seed)
+        : cone_(cone), table_(table), seed_(seed), first_(raytrace::hash(seed, 2u) & 1) {}
 
-    vec3 direction(uint32_t k, uint32_t seed) const {
-        if (!table_) return cone_.direction(k, seed);
-        if (k % 2 == 0) return cone_.direction(k / 2, seed);
-        return table_->direction(raytrace::stratified_sample(k / 2, raytrace::hash(seed, 1u)));
+    vec3 direction(uint32_t k) const {
+        if (!table_) return cone_.direction(k, seed_);
+        if ((k & 1) == first_) return cone_.direction(k / 2, seed_);
+        return table_->direction(raytrace::stratified_sample(k / 2, raytrace::hash(seed_, 1u)));
     }
-    // 0: outside the cone.
-    float solid_angle(vec3 d) const {
-        if (table_ && glm::dot(d, cone_.z) < cone_.cosine) return 0;
-        float density = float(n_ - of_table_) / (2 * float(kPi) * (1 - cone_.cosine));
-        if (table_) density += float(of_table_) * table_->density(d);
-        return 1 / density;
+    // Of a sample, per solid angle.
+    float density(vec3 d) const {
+        return table_ ? (cone_density(d) + table_->density(d)) / 2 : cone_density(d);
     }
-
-    // Of a look at the map. One for all where densities differ: a wide look beside what is bright
-    // would count it twice.
-    float width(float solid_angle) const {
-        return table_ ? EnvironmentTable::kWidth : std::sqrt(solid_angle);
+    // The solid angle that each of n directions stands for; 0: outside the cone.
+    float solid_angle(vec3 d, int n) const { return holds(d) ? 1 / (float(n) * density(d)) : 0; }
+    // What a direction counts in the mean of those in the cone.
+    float weight(vec3 d) const {
+        return table_ && holds(d) ? cone_density(d) / density(d) : table_ ? 0.0f : 1.0f;
     }
 
   private:
-    const Cone& cone_;
-    const EnvironmentTable* table_;
-    int of_table_, n_;
-};
+    bool holds(vec3 d) const { return glm::dot(d, cone_.z) > cone_.cosine - 1e-6f; }
+    float cone_density(vec3 d) const {
+        const float c = cone_.cosine;
+        if (!cone_.by_cosine) return 1 / (2 * float(kPi) * (1 - c));
+        return std::max(glm::dot(d, cone_.z), 1e-6f) / (float(kPi) * (1 - c * c));
+    }
 
-// The solid angle that each of n directions of the cone stands for: 1 / (n density).
-inline float solid_angle(const Cone& cone, vec3 direction, int n) {
-    float c = cone.cosine;
-    if (!cone.by_cosine) return 2 * float(kPi) * (1 - c) / float(n);
-    float up = std::max(glm::dot(direction, cone.z), 1e-6f);
-    return float(kPi) * (1 - c * c) / (up * float(n));
-}
+    Cone cone_;
+    const EnvironmentTable* table_ = nullptr;
+    uint32_t seed_ = 0, first_ = 0;
+};
 
 }  // namespace kinora

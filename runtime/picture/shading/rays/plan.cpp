@@ -33,7 +33,8 @@ bool same_rays(const RayPlan& a, const RayPlan& b) {
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         if (a.count[lane] != b.count[lane]) return false;
         if (a.count[lane] == 0) continue;
-        if (a.share[lane] != b.share[lane] || a.way[lane].weight != b.way[lane].weight)
+        if (a.share[lane] != b.share[lane] || a.allowance[lane] != b.allowance[lane] ||
+            a.way[lane].weight != b.way[lane].weight)
             return false;
     }
     return true;

@@ -19,6 +19,7 @@ struct TracedRay {
 struct RayPlan {
     int count[jit::kMaxLanes] = {};
     float share[jit::kMaxLanes] = {};
+    float allowance[jit::kMaxLanes] = {};  // RayBatch::allowance of each ray
     TracedRay way[jit::kMaxLanes];
 
     bool any() const {

@@ -9,10 +9,10 @@ namespace {
 struct Point {
     PointRays rays;
     uint16_t calls = 0;
-    uint64_t out = 0;
+    uint64_t out = 0, thinned = 0;
 
     PointBudget budget(float most, uint32_t depth = 0, float share = 1) {
-        return {share, depth, 16, most, uint32_t(most), &calls, &rays, &out};
+        return {share, depth, 16, most, uint32_t(most), &calls, &rays, &out, most, &thinned};
     }
 };
 
@@ -91,6 +91,54 @@ TEST(Budget, FittedSamplesAreNeverNone) {
         EXPECT_GT(fit_samples(point.budget(1000, 3, share), samples), 0);
         EXPECT_GE(samples, 1);
         EXPECT_EQ(samples == 64, share == 1.0f);
+    }
+}
+
+// Rays that are to be expected behind a point whose calls take so many samples each.
+double paths(float allowance, uint32_t depth, int calls, int samples, uint32_t bounces) {
+    Point point;
+    double rays = 0;
+    for (int c = 0; c < calls; ++c) {
+        const AllowedCall call = allow_path(point.budget(allowance, depth), samples, bounces, 0);
+        const double behind =
+            bounces > 1 ? paths(call.each, depth + 1, calls, samples, bounces - 1) : 0;
+        rays += call.samples / double(call.factor) * (1 + behind);
+    }
+    return rays;
+}
+
+TEST(Budget, AllowancesHoldForAllThatFollows) {
+    for (uint32_t bounces : {1u, 2u, 4u, 8u})
+        for (int samples : {1, 4, 16, 64, 256})
+            EXPECT_LE(paths(1000, 0, 1, samples, bounces), 1000) << bounces << " " << samples;
+    EXPECT_LE(paths(1000, 0, 3, 16, 4), 1100);  // the least chances of paths come on top
+    EXPECT_EQ(paths(1000, 0, 1, 16, 2), 16 + 256);
+}
+
+TEST(Budget, PathsThatDoNotFitAreFollowedByChance) {
+    for (float number : {0.0f, 0.49f, 0.51f, 0.99f}) {
+        Point point;
+        const AllowedCall call = allow_path(point.budget(2, 1), 16, 4, number);
+        EXPECT_EQ(call.samples, number < 0.5f ? 1 : 0);
+        EXPECT_TRUE(call.samples == 0 || call.factor == 2) << call.factor;
+        EXPECT_EQ(point.thinned, 1u);
+    }
+}
+
+TEST(Budget, GatheredSamplesAreSharedByADivisorOfRays) {
+    Point eye, nested;
+    EXPECT_EQ(allow_rays(eye.budget(10), 64).samples, 64);
+    EXPECT_EQ(allow_rays(nested.budget(30, 1), 64).samples, 8);  // half of 30, or less
+    EXPECT_EQ(allow_rays(nested.budget(30, 1), 1).samples, 1);
+}
+
+TEST(Budget, WhatGoesOnBehindAPointHasTheRestOfItsAllowance) {
+    Point point;
+    float given = 0;
+    for (int call = 0; call < 5; ++call) {
+        const AllowedCall own = allow_rays(point.budget(1000), 1);
+        given += 1 + own.each;
+        EXPECT_NEAR(given + 1000 * point.rays.kept, 1000, 1e-2);
     }
 }
 
