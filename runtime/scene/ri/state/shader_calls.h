@@ -36,6 +36,8 @@ class ShaderCalls {
     std::vector<Binding>* layers_of(std::string_view type);
     ShaderBinding binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader);
     Light light_of(const Call& call);
+    void report_unusable(std::string_view kind, std::string_view name, const rsl::Shader* found,
+                         std::string_view instead);
     std::string map_name(std::string_view parameter, const std::string& name,
                          const rsl::Shader& shader);
     std::string picture_file(const std::string& name, bool any_suffix) const;
