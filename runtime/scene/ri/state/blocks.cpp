@@ -30,6 +30,10 @@ Request begin_of(Request end) {
     return std::ranges::find(kBlocks, end, &BlockRow::end)->begin;
 }
 
+bool is_operation(std::string_view solid) {
+    return solid == "intersection" || solid == "union" || solid == "difference";
+}
+
 // What lies between two calls of one request: numbers are mixed, all else is the first's.
 class Between {
   public:
@@ -74,7 +78,7 @@ void Interpreter::begin_block(const Call& call) {
         block.options = std::make_unique<Options>(state_.options);
         state_.frame = call.arguments[0].integer();
     }
-    if (call.request == Request::SolidBegin && call.arguments[0].string() != "primitive")
+    if (call.request == Request::SolidBegin && is_operation(call.arguments[0].string()))
         report_.not_done("SolidBegin", "solids are drawn as their surfaces");
     state_.blocks.push_back(std::move(block));
 }
