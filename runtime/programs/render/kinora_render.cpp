@@ -267,7 +267,9 @@ int Render::ready_folders() {
 std::vector<DisplayFile> Render::displays_of(const std::string& picture) const {
     const std::optional<FilePicture>& own = scene_.scene().description->file_picture;
     if (picture.empty() || !own) return {};
-    std::vector<DisplayFile> files = displays_beside(picture, own->displays);
+    NumberedDisplays numbered{OutputName(options_.output).number(own->number), {}};
+    if (world_) numbered.stems = world_->shared_stems;
+    std::vector<DisplayFile> files = displays_beside(picture, own->displays, numbered);
     auto is_there = [&](const std::string& output) {
         return std::ranges::count(scene_.scene().outputs, output, &OutputPlane::parameter) > 0;
     };
@@ -628,9 +630,9 @@ bool names_file(const char* word) {
 
 // One picture after another; the run ends with the first that fails, unless --keep-going is given.
 static int render_worlds(const RenderOptions& options) {
-    const std::optional<std::vector<int>> worlds = worlds_to_render(options);
+    const std::optional<ChosenWorlds> worlds = worlds_to_render(options);
     if (!worlds) return kExitUsage;
-    if (worlds->empty()) return Render(options).run();  // which says why
+    if (worlds->wanted.empty()) return Render(options).run();  // which says why
     FrameCodes codes(options.keep_going);
     FindingPrinter::Told told;
     Diagnostics found;

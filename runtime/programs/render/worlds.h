@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "runtime/base/diagnostic.h"
@@ -11,10 +13,15 @@
 
 namespace kinora {
 
-// The file's pictures that are wanted, from 0: those that --frames names, all where -o has a frame
-// token, else the last. Nothing, with a message on stderr: the file has none of these frames. An
-// empty list: it has no pictures at all.
-std::optional<std::vector<int>> worlds_to_render(const RenderOptions& options);
+struct ChosenWorlds {
+    std::vector<int> wanted;  // from 0
+    // Of displays that several of the file's pictures have, wanted or not (display_stem()).
+    std::set<std::string> shared_stems;
+};
+// The file's pictures that are wanted: those that --frames names, all where -o has a frame token,
+// else the last. Nothing, with a message on stderr: the file has none of these frames. None: it has
+// no pictures at all.
+std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options);
 
 // One of them, as it was read.
 struct ReadWorld {
@@ -22,11 +29,12 @@ struct ReadWorld {
     SceneDescription scene;
     double ms = 0;             // that it took to read
     const Diagnostics& found;  // in the file up to its end
+    const std::set<std::string>& shared_stems;
 };
 
 // Reads the file once, and gives each of these pictures to `render`, until that returns false.
 // False: the file cannot be read; `found` says why.
-bool read_worlds(const RenderOptions& options, const std::vector<int>& worlds, Diagnostics& found,
+bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render);
 
 }  // namespace kinora
