@@ -56,6 +56,10 @@ uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& descripti
             for (const std::string& text : source.strings) add_file(text);
     });
     for (const std::string& file : description.inputs) add_file(file);
+    // Maps that earlier pictures of the file are: those depend on files of their own.
+    if (description.file_picture)
+        for (const auto& map : description.memory_files)
+            hash.add(map->bytes().data(), map->bytes().size());
     for (const std::string& file : named_files(description)) add_file(file);
     return hash.value();
 }

@@ -347,6 +347,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (in_bands)
         if (int code = end_bands(record, whole)) return code;
     if (!whole) return kExitSomeFailed;
+    if (world_ && world_->keep) world_->keep(film_);
     record.samples = scene_.settings().integrator.samples_per_pixel;
     if (targeted_) targeted_->took(record.samples, record.stats.total);
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
@@ -448,8 +449,9 @@ int Render::frames() {
         if (session->width > 0) settings.width = session->width;
         if (session->height > 0) settings.height = session->height;
     }
-    // A contact sheet, displays and settings for a target take whole pictures.
-    if (options_.contact_sheet.empty() && !options_.frame_target.any() &&
+    // A contact sheet, displays, maps and settings for a target take whole pictures.
+    const bool kept = world_ && world_->keep;
+    if (options_.contact_sheet.empty() && !options_.frame_target.any() && !kept &&
         displays_of(options_.output).empty()) {
         settings.band_rows = band_rows(settings.width, settings.height, settings.integrator.tile);
         settings.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };

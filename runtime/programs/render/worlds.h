@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "raytrace/film.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/scene/description/scene_description.h"
@@ -15,6 +17,8 @@ namespace kinora {
 
 struct ChosenWorlds {
     std::vector<int> wanted;  // from 0
+    // Earlier ones whose displays of these names are looked up by them, or by others of these.
+    std::map<int, std::set<std::string>> maps;
     // Of displays that several of the file's pictures have, wanted or not (display_stem()).
     std::set<std::string> shared_stems;
 };
@@ -30,9 +34,12 @@ struct ReadWorld {
     double ms = 0;             // that it took to read
     const Diagnostics& found;  // in the file up to its end
     const std::set<std::string>& shared_stems;
+    // Gets its picture; empty: nobody needs it but its file.
+    std::function<void(const raytrace::Film& film)> keep;
 };
 
-// Reads the file once, and gives each of these pictures to `render`, until that returns false.
+// Reads the file once, and gives each wanted picture to `render`, until that returns false. Maps
+// that they need are rendered before, and stay in memory.
 // False: the file cannot be read; `found` says why.
 bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render);

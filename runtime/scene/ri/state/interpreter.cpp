@@ -136,10 +136,10 @@ void Interpreter::dispatch(const Call& call) {
     };
     const RequestClass kind = row(call.request).kind;
     // Archives, which may hold worlds, are found along an option, conditions look at both, and
-    // displays tell maps from pictures.
+    // displays and the maps made of them tell what a picture needs.
     if (drawn_.counts_alone && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
-        call.request != Request::Option && call.request != Request::Attribute &&
-        call.request != Request::Display)
+        kind != RequestClass::Map && call.request != Request::Option &&
+        call.request != Request::Attribute && call.request != Request::Display)
         return;
     if (kind == RequestClass::Option && state_.in_world())
         return report_.add(Code::RI_OPTION_IN_WORLD, row(call.request).name);
