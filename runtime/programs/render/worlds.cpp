@@ -113,6 +113,7 @@ bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagn
     std::vector<int> read = worlds.wanted;
     for (const auto& [index, names] : worlds.maps) read.push_back(index);
     KeptMaps maps;
+    KnownHashes hashes;
     int next = 0;
     Stopwatch watch;
     auto take = [&](SceneDescription&& scene) {
@@ -121,7 +122,8 @@ bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagn
         const auto map = worlds.maps.find(index);
         if (!wanted && map == worlds.maps.end()) return true;
         merge_meshes(scene);
-        ReadWorld world{options, std::move(scene), watch.ms(), found, worlds.shared_stems, {}};
+        ReadWorld world{options, std::move(scene),    watch.ms(), found,
+                        hashes,  worlds.shared_stems, {}};
         world.options.world = index;
         world.options.trees = trees;
         world.options.frames = {{int64_t(world.scene.file_picture->number)}};

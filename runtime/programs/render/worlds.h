@@ -10,6 +10,7 @@
 
 #include "raytrace/film.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/scene/description/scene_description.h"
 
@@ -33,6 +34,7 @@ struct ReadWorld {
     SceneDescription scene;
     double ms = 0;             // that it took to read
     const Diagnostics& found;  // in the file up to its end
+    KnownHashes& hashes;       // of the file's pictures
     const std::set<std::string>& shared_stems;
     // Gets its picture; empty: nobody needs it but its file.
     std::function<void(const raytrace::Film& film)> keep;
