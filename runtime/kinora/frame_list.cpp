@@ -146,9 +146,12 @@ OutputName::OutputName(std::string pattern) : before_(std::move(pattern)) {
 }
 
 std::string OutputName::file(int64_t frame) const {
-    if (digits_ == 0) return before_;
-    return fmt::format("{}{}{:0{}}{}", before_, frame < 0 ? "-" : "", frame < 0 ? -frame : frame,
-                       digits_, after_);
+    return before_ + number(frame) + after_;
+}
+
+std::string OutputName::number(int64_t frame) const {
+    if (digits_ == 0) return "";
+    return fmt::format("{}{:0{}}", frame < 0 ? "-" : "", frame < 0 ? -frame : frame, digits_);
 }
 
 }  // namespace kinora

@@ -33,6 +33,7 @@ FrameRate frame_rate_of(double value);
 struct OutputName {
     explicit OutputName(std::string pattern);
     std::string file(int64_t frame) const;
+    std::string number(int64_t frame) const;  // that the token becomes; "" without one
     bool has_token() const { return digits_ > 0; }
 
   private:

@@ -34,18 +34,27 @@ std::set<std::string> named_files(const SceneDescription& description) {
     return files;
 }
 
+uint64_t hash_of(std::string_view text) {
+    ContentHash hash;
+    hash.add_text(text);
+    return hash.value();
+}
+
 }  // namespace
 
 uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& description,
-                     const std::string& scene) {
+                     const std::string& scene, KnownHashes& known, FileId shared) {
     ContentHash hash;
-    FileHashes files;
-    for (FileId f = 0; f < texts.count(); ++f) hash.add_text(texts.text(f));
+    for (FileId f = 0; f < texts.count(); ++f) {
+        if (f >= known.texts.size() && f < shared) known.texts.push_back(hash_of(texts.text(f)));
+        const uint64_t text = f < shared ? known.texts[f] : hash_of(texts.text(f));
+        hash.add(&text, sizeof text);
+    }
     // A file by what is in it, wherever it lies, with how a texture's name says to read it.
     auto add_file = [&](const std::string& text) {
         const size_t modes = std::min(text.find('\x1f'), text.size());
         const std::string path = text.substr(0, modes);
-        const std::optional<uint64_t> content = files.of(path);
+        const std::optional<uint64_t> content = known.files.of(path);
         hash.add_text(content ? text.substr(modes) : display_path(text));
         if (content) hash.add(&*content, sizeof *content);
         if (!content && is_regular_file(path)) hash.add_text("unreadable");
@@ -56,6 +65,10 @@ uint64_t hash_inputs(const SourceFiles& texts, const SceneDescription& descripti
             for (const std::string& text : source.strings) add_file(text);
     });
     for (const std::string& file : description.inputs) add_file(file);
+    // Maps that earlier pictures of the file are: those depend on files of their own.
+    if (description.file_picture)
+        for (const auto& map : description.memory_files)
+            hash.add(map->bytes().data(), map->bytes().size());
     for (const std::string& file : named_files(description)) add_file(file);
     return hash.value();
 }

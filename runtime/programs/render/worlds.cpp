@@ -8,52 +8,138 @@
 #include "runtime/base/stats.h"
 #include "runtime/kinora/frame_list.h"
 #include "runtime/kinora/open_scene.h"
+#include "runtime/programs/render/kept_maps.h"
+#include "runtime/scene/images/display_files.h"
 #include "runtime/scene/ri/import/film.h"
 #include "runtime/scene/ri/import/import.h"
 #include "runtime/scene/ri/meshes/merge_meshes.h"
 
 namespace kinora {
 
-std::optional<std::vector<int>> worlds_to_render(const RenderOptions& options) {
-    if (options.session && !options.frames) {
-        const FilmFrames film = film_of(options.scene);
-        if (film.frames.empty()) return std::vector<int>{};
-        return std::vector<int>{film.frames[film.at(options.session->frame)].world};
+namespace {
+
+std::vector<FilePicture> pictures_of(const RenderOptions& options) {
+    std::vector<FilePicture> pictures;
+    for_each_world(options.scene, [&](const FilePicture& picture) { pictures.push_back(picture); });
+    return pictures;
+}
+
+std::set<std::string> shared_stems(const std::vector<FilePicture>& pictures) {
+    std::set<std::string> met, shared;
+    for (const FilePicture& picture : pictures) {
+        std::set<std::string> own;
+        for (const FileDisplay& display : picture.displays) own.insert(display_stem(display));
+        for (const std::string& stem : own)
+            if (!met.insert(stem).second) shared.insert(stem);
     }
-    const std::vector<int> numbers = worlds_of(options.scene);
+    return shared;
+}
+
+// The one that a session shows.
+std::vector<int> world_of_session(const RenderOptions& options) {
+    const FilmFrames film = film_of(options.scene);
+    if (film.frames.empty()) return {};
+    return {film.frames[film.at(options.session->frame)].world};
+}
+
+std::vector<int> wanted_of(const RenderOptions& options, const std::vector<FilePicture>& pictures) {
     const bool all = !options.output.empty() && OutputName(options.output).has_token();
     std::vector<int> worlds;
-    for (int w = 0; w < int(numbers.size()); ++w) {
-        const bool last = w + 1 == int(numbers.size());
-        const int64_t number = numbers[size_t(w)];
+    for (int w = 0; w < int(pictures.size()); ++w) {
+        const bool last = w + 1 == int(pictures.size());
+        const int64_t number = pictures[size_t(w)].number;
         if (options.frames ? std::ranges::count(*options.frames, number) > 0 : all || last)
             worlds.push_back(w);
     }
-    if (!worlds.empty() || numbers.empty()) return worlds;
+    return worlds;
+}
+
+// Of the last world before `w` that has a display of that name; -1: none has.
+int maker_of(const std::vector<FilePicture>& pictures, int w, const std::string& name) {
+    for (int made = w - 1; made >= 0; --made)
+        if (std::ranges::count(pictures[size_t(made)].displays, name, &FileDisplay::name))
+            return made;
+    return -1;
+}
+
+// From the last world to the first, so that maps of maps are there, too.
+std::map<int, std::set<std::string>> maps_of(const std::vector<FilePicture>& pictures,
+                                             const std::vector<int>& wanted) {
+    std::map<int, std::set<std::string>> maps;
+    for (int w = int(pictures.size()) - 1; w >= 0; --w) {
+        if (!std::ranges::count(wanted, w) && !maps.contains(w)) continue;
+        for (const std::string& name : pictures[size_t(w)].map_pictures)
+            if (const int made = maker_of(pictures, w, name); made >= 0) maps[made].insert(name);
+    }
+    return maps;
+}
+
+// With shaders, which say what maps they look up, and without anything else.
+std::vector<FilePicture> pictures_with_shaders(const RenderOptions& options) {
+    std::vector<FilePicture> pictures;
+    Diagnostics unheard;  // they come when the worlds themselves are read
+    auto take = [&](SceneDescription&& world) {
+        pictures.push_back(std::move(*world.file_picture));
+        return true;
+    };
+    read_rib(options.scene, import_options(options), unheard, take, {.worlds = {-1}});
+    return pictures;
+}
+
+bool makes_pictures(const RenderOptions& options) {
+    return !options.output.empty() || !options.contact_sheet.empty() || options.discard ||
+           !options.tradeoff.empty();
+}
+
+}  // namespace
+
+std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options) {
+    const std::vector<FilePicture> pictures = pictures_of(options);
+    ChosenWorlds chosen{{}, {}, shared_stems(pictures)};
+    chosen.wanted = options.session && !options.frames ? world_of_session(options)
+                                                       : wanted_of(options, pictures);
+    if (makes_pictures(options) && !maps_of(pictures, chosen.wanted).empty())
+        chosen.maps = maps_of(pictures_with_shaders(options), chosen.wanted);
+    if (!chosen.wanted.empty() || pictures.empty()) return chosen;
     std::fprintf(stderr, "kinora-render: error: '%s' has %zu pictures, none of them of --frames\n",
-                 options.scene.c_str(), numbers.size());
+                 options.scene.c_str(), pictures.size());
     return std::nullopt;
 }
 
-bool read_worlds(const RenderOptions& options, const std::vector<int>& worlds, Diagnostics& found,
+bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render) {
     judge_by(options, found);
     const auto trees = std::make_shared<raytrace::KeptTrees>();
+    std::vector<int> read = worlds.wanted;
+    for (const auto& [index, names] : worlds.maps) read.push_back(index);
+    KeptMaps maps;
+    KnownHashes hashes;
     int next = 0;
     Stopwatch watch;
     auto take = [&](SceneDescription&& scene) {
         const int index = next++;
-        if (std::ranges::count(worlds, index) == 0) return true;
+        const bool wanted = std::ranges::count(worlds.wanted, index) > 0;
+        const auto map = worlds.maps.find(index);
+        if (!wanted && map == worlds.maps.end()) return true;
         merge_meshes(scene);
-        ReadWorld world{options, std::move(scene), watch.ms(), found};
+        ReadWorld world{options, std::move(scene),    watch.ms(), found,
+                        hashes,  worlds.shared_stems, {}};
         world.options.world = index;
         world.options.trees = trees;
         world.options.frames = {{int64_t(world.scene.file_picture->number)}};
-        const bool go_on = render(std::move(world));
+        const bool shared = wanted && KeptMaps::are_as_written(world.options);
+        if (map != worlds.maps.end() && shared)
+            world.keep = [&, picture = *world.scene.file_picture](const raytrace::Film& film) {
+                maps.keep(options.scene, picture, map->second, film, found);
+            };
+        else if (map != worlds.maps.end())
+            maps.render(world.options, world.scene, found.files, map->second, found);
+        maps.give(world.scene);
+        const bool go_on = !wanted || render(std::move(world));
         watch.restart();
-        return go_on && index != worlds.back();
+        return go_on && index != worlds.wanted.back();
     };
-    return read_rib(options.scene, import_options(options), found, take, {.worlds = worlds});
+    return read_rib(options.scene, import_options(options), found, take, {.worlds = read});
 }
 
 }  // namespace kinora

@@ -2,19 +2,31 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
+#include "raytrace/film.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
 
-// The file's pictures that are wanted, from 0: those that --frames names, all where -o has a frame
-// token, else the last. Nothing, with a message on stderr: the file has none of these frames. An
-// empty list: it has no pictures at all.
-std::optional<std::vector<int>> worlds_to_render(const RenderOptions& options);
+struct ChosenWorlds {
+    std::vector<int> wanted;  // from 0
+    // Earlier ones whose displays of these names are looked up by them, or by others of these.
+    std::map<int, std::set<std::string>> maps;
+    // Of displays that several of the file's pictures have, wanted or not (display_stem()).
+    std::set<std::string> shared_stems;
+};
+// The file's pictures that are wanted: those that --frames names, all where -o has a frame token,
+// else the last. Nothing, with a message on stderr: the file has none of these frames. None: it has
+// no pictures at all.
+std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options);
 
 // One of them, as it was read.
 struct ReadWorld {
@@ -22,11 +34,16 @@ struct ReadWorld {
     SceneDescription scene;
     double ms = 0;             // that it took to read
     const Diagnostics& found;  // in the file up to its end
+    KnownHashes& hashes;       // of the file's pictures
+    const std::set<std::string>& shared_stems;
+    // Gets its picture; empty: nobody needs it but its file.
+    std::function<void(const raytrace::Film& film)> keep;
 };
 
-// Reads the file once, and gives each of these pictures to `render`, until that returns false.
+// Reads the file once, and gives each wanted picture to `render`, until that returns false. Maps
+// that they need are rendered before, and stay in memory.
 // False: the file cannot be read; `found` says why.
-bool read_worlds(const RenderOptions& options, const std::vector<int>& worlds, Diagnostics& found,
+bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render);
 
 }  // namespace kinora

@@ -56,6 +56,9 @@ struct FilePicture {
     std::vector<float> filter_values;
     Exposure exposure;
     std::vector<FileDisplay> displays;
+    // Names of the pictures that maps are made of which its shaders were given. Where the file was
+    // read for its numbers alone, of all maps made so far.
+    std::vector<std::string> map_pictures;
 };
 
 }  // namespace kinora

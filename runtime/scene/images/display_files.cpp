@@ -192,13 +192,19 @@ std::vector<DisplayFile> display_files(std::span<const FileDisplay> displays) {
     return files.take();
 }
 
+std::string display_stem(const FileDisplay& display) {
+    return without_suffix(base_name(display.name));
+}
+
 std::vector<DisplayFile> displays_beside(const std::string& picture,
-                                         std::span<const FileDisplay> displays) {
+                                         std::span<const FileDisplay> displays,
+                                         const NumberedDisplays& numbered) {
     const std::string folder = picture.substr(0, picture.rfind('/') + 1);
     Files files([&](const FileDisplay& display) {
-        FileDisplay here = display;
-        here.name = base_name(display.name);
-        return folder + file_of(here);
+        const std::string stem = display_stem(display);
+        const bool has_number = !numbered.number.empty() && numbered.stems.contains(stem);
+        return folder + stem + (has_number ? "." + numbered.number : "") +
+               (is_exr(display) ? ".exr" : ".png");
     });
     auto first = std::ranges::find_if(
         displays, [](const FileDisplay& display) { return content_of(display).color; });

@@ -1,6 +1,7 @@
 // runtime/scene/images/display_files.h: the displays of a scene file as files of ours.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,10 +26,18 @@ std::string file_of(const FileDisplay& display);
 // into its file, is left out. Where several would have one file, the later has its mode in its
 // name.
 std::vector<DisplayFile> display_files(std::span<const FileDisplay> displays);
+// The last part of a display's name without the suffix of a picture.
+std::string display_stem(const FileDisplay& display);
+// Displays that have the number of their frame behind their stem.
+struct NumberedDisplays {
+    std::string number;           // "0007"; "": none has
+    std::set<std::string> stems;  // of these
+};
 // Those besides the first display of colours, which is the file `picture` whatever its own name is.
-// They lie in its folder, by the last part of their names.
+// They lie in its folder, by their stems.
 std::vector<DisplayFile> displays_beside(const std::string& picture,
-                                         std::span<const FileDisplay> displays);
+                                         std::span<const FileDisplay> displays,
+                                         const NumberedDisplays& numbered = {});
 
 // Whether what the display shows is there, by the names of outputs that are: "z", "N".
 bool has_outputs(const FileDisplay& display, FunctionRef<bool(const std::string&)> is_there);

@@ -46,6 +46,10 @@ std::unique_ptr<StoredImage> read_image(const std::string& name, const std::stri
     return image;
 }
 
+AllowedPaths::Found find_file(const AllowedPaths& trees, const std::string& name) {
+    return is_memory_file(name) ? AllowedPaths::Found{name} : trees.find(name);
+}
+
 // A cube whose pictures may be of any sizes. One that cannot be read spoils it.
 std::unique_ptr<StoredImage> read_cube(const std::string& path, const CubeName& name,
                                        const AllowedPaths& trees, bool data) {
@@ -53,7 +57,7 @@ std::unique_ptr<StoredImage> read_cube(const std::string& path, const CubeName& 
     cube->path = cube->file = path;
     cube->face_extent = float(std::tan(radians(std::clamp(name.fov, 1.0, 179.0)) / 2));
     for (const std::string& face : name.faces) {
-        AllowedPaths::Found file = trees.find(face);
+        AllowedPaths::Found file = find_file(trees, face);
         std::unique_ptr<StoredImage> image = read_image(face, file.path, file.outside, data);
         if (!image->error.empty()) image->faces.clear();
         if (!image->error.empty()) return image;
@@ -120,14 +124,10 @@ const Texture* TextureStore::meet(int32_t name) {
     return texture.get();
 }
 
-AllowedPaths::Found TextureStore::file_of(const std::string& name) const {
-    return is_memory_file(name) ? AllowedPaths::Found{name} : trees_.find(name);
-}
-
 // The mutex is held.
 const StoredImage* TextureStore::image(const std::string& name, bool data) {
     std::optional<CubeName> cube = parse_cube_name(name);
-    AllowedPaths::Found file = cube ? AllowedPaths::Found{name} : file_of(name);
+    AllowedPaths::Found file = cube ? AllowedPaths::Found{name} : find_file(trees_, name);
     data = data || !decode_;
     std::unique_ptr<StoredImage>& known = images_[{file.path, data}];
     if (!known)
@@ -143,7 +143,7 @@ void TextureStore::preload(std::span<const std::string> names) {
         for (auto& [key, image] : images_) image->reported = false;
         for (const std::string& name : names) {
             TextureName parsed = parse_texture_name(name);
-            auto [path, outside] = file_of(parsed.path);
+            auto [path, outside] = find_file(trees_, parsed.path);
             bool there = !outside && (is_regular_file(path) || is_memory_file(path));
             bool data = parsed.data || !decode_;
             if (there && !images_.count({path, data})) wanted.emplace(path, data);

@@ -77,7 +77,6 @@ class TextureStore {
     using Chunk = std::array<std::atomic<const Texture*>, 1 << kChunkBits>;
     const Texture* meet(int32_t name);
     const StoredImage* image(const std::string& name, bool data);
-    AllowedPaths::Found file_of(const std::string& name) const;
 
     const AllowedPaths trees_;
     const bool decode_ = true, from_top_ = false;

@@ -16,7 +16,6 @@ namespace {
 constexpr double kSmoothTurn = radians(15);    // of normals along an edge that is to be seen
 constexpr double kLargestTurn = radians(100);  // of any edge: closed surfaces stay bodies
 constexpr double kSmallEdge = 2;               // pixels: shorter ones may turn more
-constexpr double kWidestView = 2;  // tangent of the angle from the axis: beyond, nothing is seen
 constexpr double kPixelsWithoutPicture = 1000;
 constexpr int kRounds = 3;
 constexpr size_t kMostTriangles = 1u << 28;  // indices have 32 bits

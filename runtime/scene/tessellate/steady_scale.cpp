@@ -8,9 +8,8 @@
 namespace kinora {
 
 std::optional<PictureScale> steady_scale(const PictureScale& scale, dvec3 center, double radius) {
-    constexpr double kAlike = 1.5;     // of sizes along the axes
-    constexpr double kFar = 3;         // radii away
-    constexpr double kWidestView = 2;  // tangent of the angle from the axis
+    constexpr double kAlike = 1.5;  // of sizes along the axes
+    constexpr double kFar = 3;      // radii away
     constexpr double kStepsAnOctave = 2;
     double least = 1e300, size = 0;
     for (int c = 0; c < 3; ++c) {

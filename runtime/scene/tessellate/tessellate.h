@@ -20,6 +20,9 @@ struct PictureScale {
     double near = 1e-3;  // what is nearer is not made finer
 };
 
+// The tangent of the widest angle from the axis of a view that is taken to be seen.
+inline constexpr double kWidestView = 2;
+
 // The scale of a thing (in a ball of object space) all of whose parts have about one size in the
 // picture, as one of few, at least as fine: so that equal things have equal triangles wherever they
 // stand. Nothing for other things.

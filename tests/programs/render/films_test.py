@@ -20,9 +20,10 @@ def ground(n=40):
     return f'PointsPolygons [{" 4" * (n * n)}] [{" ".join(faces)}] "P" [{" ".join(points)}]'
 
 
-def film(surface="matte"):
+def film(surface="matte", beside=lambda frame: ""):
     frames = [f"""FrameBegin {f}
 Display "x{f}.tif" "file" "rgb"
+{beside(f)}
 Projection "perspective" "fov" 40
 Translate 0 0 {7 + .2 * f}
 Rotate -30 1 0 0
@@ -62,6 +63,19 @@ class Films(ProgramTest):
         words = (scene, "-o", self.folder / "f.####.png", "--skip-existing")
         self.expect(render(*words), 0)
         self.assertEqual(render(*words).err.count("kept"), FRAMES)
+
+    def test_displays_that_frames_share_have_their_numbers(self):
+        depth, once = 'Display "+z.tif" "zfile" "z" ', 'Display "+only1.tif" "file" "z" '
+        scene = self.write("film.rib", film(beside=lambda frame: depth + (once if frame == 1 else "")))
+        self.expect(render(scene, "-o", self.folder / "all/f.####.png"), 0)
+        self.expect(render(scene, "-o", self.folder / "one/f.####.png", "--frames", 2), 0)
+        self.expect(render(scene, "-o", self.folder / "last/f.png"), 0)
+        names = sorted(path.name for path in (self.folder / "all").iterdir())
+        wanted = [f"{name}.{f:04}.{suffix}" for name, suffix in (("f", "png"), ("z", "exr")) for f in range(1, FRAMES + 1)]
+        self.assertEqual(names, sorted(wanted + ["only1.exr"]))
+        self.assertEqual((self.folder / "all/z.0002.exr").read_bytes(), (self.folder / "one/z.0002.exr").read_bytes())
+        self.assertEqual(len({(self.folder / f"all/z.{f:04}.exr").read_bytes() for f in range(1, FRAMES + 1)}), FRAMES)
+        self.assertEqual(sorted(path.name for path in (self.folder / "last").iterdir()), ["f.png", "z.exr"])
 
     def test_a_finding_is_told_once(self):
         scene = self.write("film.rib", film("nowhere"))

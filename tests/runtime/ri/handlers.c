@@ -96,13 +96,15 @@ void wrong_calls(int renders)
     CHECK(errors == 2 && last_code == RIE_BADHANDLE);
     RiDeclare("x", "varying cheese");
     CHECK(errors == 3 && last_code == RIE_SYNTAX);
+    RiPatch("cubic", RI_P, (RtPointer)&nothing, RI_NULL);
+    CHECK(errors == 4 && last_code == RIE_BADTOKEN);
     if (!renders) return; /* who writes RIB judges no order */
     RiFormat((RtInt)10, (RtInt)10, 1.0);
-    CHECK(errors == 4 && last_code == RIE_NOTOPTIONS);
+    CHECK(errors == 5 && last_code == RIE_NOTOPTIONS);
     RiTransformEnd();
-    CHECK(errors == 5 && last_code == RIE_NESTING);
+    CHECK(errors == 6 && last_code == RIE_NESTING);
     RiSurface("no_such_shader", RI_NULL);
-    CHECK(errors == 6 && last_code == RIE_NOSHADER);
+    CHECK(errors == 7 && last_code == RIE_NOSHADER);
 }
 
 int near(RtFloat a, RtFloat b)

@@ -70,7 +70,8 @@ void** Cursor::take() {
 }
 template <>
 RtFilterFunc Cursor::take() {
-    return filter_function(next().string());
+    RtFilterFunc named = filter_function(next().string());
+    return named ? named : RiGaussianFilter;
 }
 template <>
 RtArchiveCallback Cursor::take() {
@@ -157,9 +158,11 @@ void motion_begin(RequestReader& read, Handles&, Report&) {
 // `at`: the argument that names the filter.
 template <auto function, size_t at>
 void with_filter(RequestReader& read, Handles&, Report& report) {
-    if (filter_function(arguments(read)[at].string())) return call_with(function, read);
-    report.add(Code::RIB_ARGUMENT, read.word(), row(read.request()).name,
-               "it names no filter of the interface", "");
+    const std::string_view name = arguments(read)[at].string();
+    if (!filter_function(name))
+        report.add(Code::RI_TOKEN_WRONG, read.word(), row(read.request()).name, shown(name),
+                   filter_names(), "it is taken for \"gaussian\"");
+    call_with(function, read);
 }
 
 // Primitives.

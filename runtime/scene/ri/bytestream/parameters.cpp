@@ -6,6 +6,7 @@
 
 #include "runtime/scene/ri/bytestream/consistency_p.h"
 #include "runtime/scene/ri/bytestream/request_reader_p.h"
+#include "runtime/scene/ri/calls/accepted_tokens.h"
 
 namespace kinora::ri {
 namespace {
@@ -134,6 +135,11 @@ bool RequestReader::count_vertices() {
 Outcome RequestReader::check() {
     values_.clear();
     for (const Piece& piece : arguments_) values_.push_back(values(piece));
+    if (const auto wrong = refusal(request_, values_)) {
+        report_.add(Code::RI_TOKEN_WRONG, word_, name(), shown(wrong->token), words_of(*wrong->row),
+                    wrong->row->otherwise);
+        return Outcome::LeftOut;
+    }
     std::string why = contradiction(request_, values_);
     CountedCall counted;
     if (row(request_).kind == RequestClass::Primitive && row(request_).has_parameters()) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/calls/accepted_tokens.h"
 
 extern "C" {
 RtInt RiLastError = RIE_NOERROR;
@@ -32,6 +33,8 @@ constexpr ErrorRow kErrors[] = {
     {"RI_CONDITION", RIE_SYNTAX},
     {"RI_HANDLE", RIE_BADHANDLE},
     {"RI_SHADER_UNKNOWN", RIE_NOSHADER},
+    {"RI_SHADER_REFUSED", RIE_NOSHADER},
+    {"RI_TOKEN_WRONG", RIE_BADTOKEN},
     {"RI_DATA_MISSING", RIE_MISSINGDATA},
     {"RI_NOT_DONE", RIE_UNIMPLEMENT},
     {"RI_ARCHIVE", RIE_NOFILE},
@@ -222,6 +225,9 @@ void Context::send_contained(Request request, std::span<const Values> arguments,
                              RtToken tokens[], RtPointer values[], uint32_t vertices) {
     if (lacks_array(request, arguments))
         return error(Code::RI_DATA_MISSING, row(request).name, "values");
+    if (const auto wrong = refusal(request, arguments))
+        return error(Code::RI_TOKEN_WRONG, row(request).name, wrong->token, words_of(*wrong->row),
+                     wrong->row->otherwise);
     CountedCall counted = count_values(request, arguments, counts_.back(), vertices);
     if (!counted.why.empty()) return error(Code::RI_COUNTS, row(request).name, counted.why);
     // A sink may read an archive during this call, which sends others.

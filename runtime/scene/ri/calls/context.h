@@ -36,6 +36,7 @@ CountedCall count_values(Request request, std::span<const Values> arguments,
 
 // The filter of ri.h that RIB calls "gaussian", ...; null: there is none of that name.
 RtFilterFunc filter_function(std::string_view name);
+std::string filter_names();  // "box, triangle, ..."
 
 // One begun by RiBegin, or by a reader of files. Used by one thread at a time.
 class Context {

@@ -81,6 +81,15 @@ uint64_t patches_along(int points, bool bicubic, bool periodic, int step) {
     return uint64_t(periodic ? points / step : (points - 4) / step + 1);
 }
 
+// Why points along a direction of a mesh make no whole number of patches; "": they make it.
+std::string patches_left_over(char direction, int points, bool bicubic, bool periodic, int step) {
+    step = std::max(step, 1);
+    const int rest = !bicubic ? 0 : periodic ? points % step : (points - 4) % step;
+    if (rest == 0) return "";
+    return fmt::format("{} points along {} are {} {}, as its basis needs", points, direction,
+                       periodic ? "no multiple of" : "not 4 and a multiple of", step);
+}
+
 CountedCall of_patch_mesh(std::span<const Values> arguments, const CountState& state) {
     bool bicubic = arguments[0].string() == "bicubic";
     int nu = arguments[1].integer(), nv = arguments[3].integer();
@@ -88,6 +97,9 @@ CountedCall of_patch_mesh(std::span<const Values> arguments, const CountState& s
     uint64_t u = patches_along(nu, bicubic, uwrap, state.ustep);
     uint64_t v = patches_along(nv, bicubic, vwrap, state.vstep);
     if (!u || !v) return refused(fmt::format("{} by {} points make no patch", nu, nv));
+    for (const std::string& why : {patches_left_over('u', nu, bicubic, uwrap, state.ustep),
+                                   patches_left_over('v', nv, bicubic, vwrap, state.vstep)})
+        if (!why.empty()) return refused(why);
     uint64_t corners = (u + !uwrap) * (v + !vwrap);
     return counted(u * v, corners, uint64_t(nu) * uint64_t(nv), corners);
 }

@@ -98,4 +98,11 @@ RtFilterFunc filter_function(std::string_view name) {
     return nullptr;
 }
 
+std::string filter_names() {
+    std::string names;
+    for (const FilterRow& row : kFilters)
+        names += (names.empty() ? "" : ", ") + std::string(row.name);
+    return names;
+}
+
 }  // namespace kinora::ri

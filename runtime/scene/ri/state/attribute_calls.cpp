@@ -1,7 +1,10 @@
 // runtime/scene/ri/state/attribute_calls.cpp: attributes of shading and geometry but for shaders.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <span>
 
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/ri/calls/ri.h"
@@ -66,6 +69,22 @@ void set_visibility(std::string_view group, const Parameter& parameter, Visibili
                                            : (parameter.values.integer() & row.mask) != 0;
 }
 
+// Attributes that are one of a few words. Others are of one renderer each, and change nothing.
+constexpr std::string_view kOnOff[] = {"off", "on"};
+constexpr std::string_view kSenses[] = {"inside", "outside"};
+constexpr std::string_view kCasters[] = {"Os", "none", "opaque", "shade"};
+constexpr std::string_view kTransmissions[] = {"opaque", "transparent", "Os", "shader"};
+struct WordRow {
+    std::string_view group, name;
+    std::span<const std::string_view> words;  // the first stands for what is none of them
+};
+constexpr WordRow kWords[] = {
+    {"light", "shadows", kOnOff},
+    {"trimcurve", "sense", kSenses},
+    {"render", "casts_shadows", kCasters},
+    {"visibility", "transmission", kTransmissions},
+};
+
 }  // namespace
 
 bool AttributeCalls::call(const Call& call) {
@@ -114,6 +133,7 @@ void AttributeCalls::attribute(const Call& call) {
     std::string_view group = call.arguments[0].string();
     if (group != "identifier") keep_told(state_.attributes.told, call);  // files have very many
     for (const Parameter& p : call.parameters) {
+        judge_word(group, p);
         if (group == "identifier" && p.name == "name") state_.attributes.name = p.values.string();
         if (group == "light" && p.name == "shadows")
             state_.attributes.light_shadows = p.values.string() == "on";
@@ -123,6 +143,16 @@ void AttributeCalls::attribute(const Call& call) {
         if (group == "trimcurve" && p.name == "sense")
             state_.attributes.trim_outside = p.values.string() == "outside";
     }
+}
+
+void AttributeCalls::judge_word(std::string_view group, const Parameter& p) {
+    if (p.values.kind() != Values::Kind::Strings) return;
+    const std::string_view word = p.values.string();
+    for (const WordRow& row : kWords)
+        if (row.group == group && row.name == p.name && !std::ranges::count(row.words, word))
+            report_.add(Code::RI_TOKEN_WRONG, fmt::format("Attribute \"{}\" \"{}\"", group, p.name),
+                        word, fmt::format("{}", fmt::join(row.words, ", ")),
+                        fmt::format("it is taken for \"{}\"", row.words[0]));
 }
 
 void AttributeCalls::detail(const Call& call) {
@@ -162,10 +192,8 @@ void AttributeCalls::orientation(const Call& call) {
         state_.attributes.inside_out = true;
     else if (side == "lh")
         state_.attributes.inside_out = !left_handed;
-    else if (side == "rh")
-        state_.attributes.inside_out = left_handed;
     else
-        report_.add(Code::RI_RANGE, "Orientation", "it is outside, inside, lh or rh");
+        state_.attributes.inside_out = left_handed;
 }
 
 void AttributeCalls::reverse_orientation(const Call&) {

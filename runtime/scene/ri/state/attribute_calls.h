@@ -19,6 +19,7 @@ class AttributeCalls {
     void shading_rate(const Call& call);
     void matte(const Call& call);
     void attribute(const Call& call);
+    void judge_word(std::string_view group, const Parameter& parameter);
     void detail(const Call& call);
     void detail_range(const Call& call);
     void orientation(const Call& call);

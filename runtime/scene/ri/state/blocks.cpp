@@ -30,6 +30,10 @@ Request begin_of(Request end) {
     return std::ranges::find(kBlocks, end, &BlockRow::end)->begin;
 }
 
+bool is_operation(std::string_view solid) {
+    return solid == "intersection" || solid == "union" || solid == "difference";
+}
+
 // What lies between two calls of one request: numbers are mixed, all else is the first's.
 class Between {
   public:
@@ -74,7 +78,7 @@ void Interpreter::begin_block(const Call& call) {
         block.options = std::make_unique<Options>(state_.options);
         state_.frame = call.arguments[0].integer();
     }
-    if (call.request == Request::SolidBegin && call.arguments[0].string() != "primitive")
+    if (call.request == Request::SolidBegin && is_operation(call.arguments[0].string()))
         report_.not_done("SolidBegin", "solids are drawn as their surfaces");
     state_.blocks.push_back(std::move(block));
 }
@@ -88,6 +92,7 @@ void Interpreter::world_begin(const Call& call) {
     state_.transform = dmat4(1.0);
     ++worlds_;
     meshes_.begin_world();
+    shaders_.begin_world();
     state_.world = std::make_unique<World>(state_.options, state_.path, state_.import,
                                            state_.camera_from_world, state_.frame.value_or(worlds_),
                                            state_.frame.has_value());
@@ -102,7 +107,9 @@ void Interpreter::world_end(const Call& call) {
 void Interpreter::close_world() {
     std::unique_ptr<World> world = std::move(state_.world);
     state_.camera_from_world = dmat4(1.0);
-    host_.take_world(world->take(state_.spaces));
+    SceneDescription made = world->take(state_.spaces);
+    made.file_picture->map_pictures = shaders_.end_world(drawn_.counts_alone);
+    host_.take_world(std::move(made));
 }
 
 void Interpreter::restore(Block& block) {

@@ -22,6 +22,10 @@ std::optional<MeshDefinition> mesh_of(Tessellation made) {
     return mesh;
 }
 
+bool is_other_scheme(std::string_view scheme) {
+    return scheme == "loop" || scheme == "bilinear";
+}
+
 constexpr uint32_t kFewCorners = 256;
 
 }  // namespace
@@ -96,7 +100,7 @@ SubdivisionSurface Interpreter::subdivision_of(const Call& call) {
     SubdivisionSurface surface = subdivision_surface(call, state_.attributes);
     if (surface.points.empty())
         report_.add(Code::RI_DATA_MISSING, row(call.request).name, "P");
-    else if (call.arguments[0].string() != "catmull-clark")
+    else if (is_other_scheme(call.arguments[0].string()))
         report_.not_done("SubdivisionMesh", "its scheme is taken for \"catmull-clark\"");
     if (has_creases(call))
         report_.not_done("SubdivisionMesh", "creases, corners and holes are smooth");

@@ -4,6 +4,7 @@
 #include "rsl/link.h"
 
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/ri/calls/accepted_tokens.h"
 #include "runtime/scene/ri/calls/ri.h"
 
 namespace kinora::ri {
@@ -135,17 +136,30 @@ void Interpreter::dispatch(const Call& call) {
     };
     const RequestClass kind = row(call.request).kind;
     // Archives, which may hold worlds, are found along an option, conditions look at both, and
-    // displays tell maps from pictures.
+    // displays and the maps made of them tell what a picture needs.
     if (drawn_.counts_alone && kind != RequestClass::Block && kind != RequestClass::Anywhere &&
-        call.request != Request::Option && call.request != Request::Attribute &&
-        call.request != Request::Display)
+        kind != RequestClass::Map && call.request != Request::Option &&
+        call.request != Request::Attribute && call.request != Request::Display)
         return;
     if (kind == RequestClass::Option && state_.in_world())
         return report_.add(Code::RI_OPTION_IN_WORLD, row(call.request).name);
     if (kind == RequestClass::Primitive && !state_.in_world())
         return report_.add(Code::RI_OUTSIDE_WORLD, row(call.request).name);
+    if (!has_right_tokens(call)) return;
     kHandlers.call(*this, call) || branches_.call(call) || options_.call(call) ||
         attributes_.call(call) || shaders_.call(call) || transforms_.call(call);
+}
+
+// Tells each wrong word once. False: the call is left out for one.
+bool Interpreter::has_right_tokens(const Call& call) {
+    bool right = true;
+    for (const WrongToken& wrong : wrong_tokens(call.request, call.arguments)) {
+        right = right && !wrong.row->left_out;
+        if (report_.is_new(fmt::format("{} {}", row(call.request).name, wrong.token)))
+            report_.add(Code::RI_TOKEN_WRONG, row(call.request).name, wrong.token,
+                        words_of(*wrong.row), wrong.row->otherwise);
+    }
+    return right;
 }
 
 bool Interpreter::transform_points(std::string_view from, std::string_view to,

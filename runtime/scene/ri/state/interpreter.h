@@ -81,6 +81,7 @@ class Interpreter : public CallSink {
     SubdivisionSurface subdivision_of(const Call& call);
 
     void dispatch(const Call& call);
+    bool has_right_tokens(const Call& call);
     const rsl::ShaderParameter* formal_of_primitive(std::string_view name);
 
     StateReport report_;

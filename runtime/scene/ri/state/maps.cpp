@@ -2,8 +2,11 @@
 // them.
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/kept_picture.h"
+#include "runtime/scene/description/memory_file.h"
 #include "runtime/scene/ri/state/shader_calls.h"
 
 namespace kinora::ri {
@@ -78,8 +81,22 @@ std::string ShaderCalls::picture_file(const std::string& name, bool any_suffix) 
     return "";
 }
 
-// Displays are written as PNG or EXR, whatever suffix their names have.
-std::string ShaderCalls::made_picture(const std::string& picture) const {
+std::vector<std::string> ShaderCalls::end_world(bool all_maps) {
+    std::set<std::string> pictures = std::exchange(used_, outside_);
+    for (const auto& [name, map] : maps_)
+        if (all_maps && map.six)
+            pictures.insert(map.six->faces.begin(), map.six->faces.end());
+        else if (all_maps)
+            pictures.insert(map.one.path);
+    return {pictures.begin(), pictures.end()};
+}
+
+// One that an earlier world of the file has made for this, else a file. Displays are written as PNG
+// or EXR, whatever suffix their names have.
+std::string ShaderCalls::made_picture(const std::string& picture) {
+    used_.insert(picture);
+    const std::string kept = kept_picture_name(state_.path, picture);
+    if (is_memory_file(kept)) return kept;
     std::string file = picture_file(picture, true);
     return file.empty() ? picture : file;
 }

@@ -65,6 +65,7 @@ bool OptionCalls::call(const Call& call) {
         {R::Imager, &C::imager},
         {R::Quantize, &C::quantize},
         {R::Display, &C::display},
+        {R::Hider, &C::hider},
         {R::ColorSamples, &C::color_samples},
         {R::RelativeDetail, &C::relative_detail},
         {R::Option, &C::option},
@@ -105,10 +106,7 @@ void OptionCalls::crop_window(const Call& call) {
 
 void OptionCalls::projection(const Call& call) {
     Projection made;
-    std::string_view name = call.arguments[0].string();
-    made.perspective = name == "perspective";
-    if (!made.perspective && name != "orthographic" && name != "orthogonal" && !name.empty())
-        report_.not_done("Projection", "it is taken for \"orthographic\"");
+    made.perspective = call.arguments[0].string() == "perspective";
     if (const Parameter* fov = call.find("fov")) made.fov = double(fov->values.real());
     if (made.perspective && !(made.fov > 0 && made.fov < 180)) {
         report_.add(Code::RI_RANGE, "Projection", "fov lies not between 0 and 180 degrees");
@@ -230,6 +228,12 @@ void OptionCalls::display(const Call& call) {
     }
     if (!added) state_.options.displays.clear();
     state_.options.displays.push_back(std::move(made));
+}
+
+void OptionCalls::hider(const Call& call) {
+    const std::string_view name = call.arguments[0].string();
+    if (name == "paint") report_.not_done("Hider \"paint\"", "what is nearer hides what is behind");
+    if (name == "null") report_.not_done("Hider \"null\"", "the picture is made");
 }
 
 void OptionCalls::color_samples(const Call& call) {

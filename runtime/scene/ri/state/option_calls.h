@@ -30,6 +30,7 @@ class OptionCalls {
     void imager(const Call& call);
     void quantize(const Call& call);
     void display(const Call& call);
+    void hider(const Call& call);
     void color_samples(const Call& call);
     void relative_detail(const Call& call);
     void option(const Call& call);

@@ -116,22 +116,33 @@ ShaderBinding ShaderCalls::binding_of(const Call& call, std::shared_ptr<const rs
     return made;
 }
 
+// Once a name: that no shader has it, or why the one that has it is not used. `found`: a shader of
+// another kind.
+void ShaderCalls::report_unusable(std::string_view kind, std::string_view name,
+                                  const rsl::Shader* found, std::string_view instead) {
+    if (!report_.is_new(fmt::format("shader {} {}", kind, name))) return;
+    const std::string file = search_.file_of(name, folders("shader"));
+    if (!found && file.empty()) return report_.add(Code::RI_SHADER_UNKNOWN, kind, name, instead);
+    const std::string why =
+        found ? fmt::format("it is a {} shader", rsl::shader_kind_name(found->kind))
+              : fmt::format("'{}' does not compile", file);
+    report_.add(Code::RI_SHADER_REFUSED, kind, name, why, instead);
+}
+
 // Null: the name is that of no shader, or of one that does nothing.
 Binding ShaderCalls::bind(const Call& call, size_t name_at, std::string_view kind) {
     std::string_view name = call.arguments[name_at].string();
     if (names_nothing(name)) return nullptr;
     std::shared_ptr<const rsl::Shader> shader = find(name);
-    bool fits = shader && shader->kind == kind_of(kind);
-    if (!fits) {
-        std::string_view instead =
-            kind == "surface" ? "the default surface stands for it" : "it is left out";
-        if (report_.is_new(fmt::format("shader {} {}", kind, name)))
-            report_.add(Code::RI_SHADER_UNKNOWN, kind, name, instead);
+    if (!shader || shader->kind != kind_of(kind)) {
+        report_unusable(kind, name, shader.get(),
+                        kind == "surface" ? "the default surface stands for it" : "it is left out");
         return nullptr;
     }
     return std::make_shared<const ShaderBinding>(binding_of(call, std::move(shader)));
 }
 
+// Null: of no such type; calls are refused for that (calls/accepted_tokens.cpp).
 std::vector<Binding>* ShaderCalls::layers_of(std::string_view type) {
     for (const ShaderRow& row : kShaders)
         if (row.type == type) return &(state_.attributes.*row.layers);
@@ -149,18 +160,17 @@ void ShaderCalls::surface(const Call& call) {
 
 void ShaderCalls::shader_layer(const Call& call) {
     std::vector<Binding>* layers = layers_of(call.arguments[0].string());
-    if (!layers)
-        return report_.add(Code::RI_RANGE, "ShaderLayer", "there is no such type of shaders");
+    if (!layers) return;
     if (Binding made = bind(call, 1, call.arguments[0].string()))
         layers->push_back(std::move(made));
 }
 
 void ShaderCalls::connect_layers(const Call& call) {
     std::vector<Binding>* layers = layers_of(call.arguments[0].string());
-    std::string why = "there is no such type of shaders";
-    if (layers)
-        why = connect(*layers, {call.arguments[1].string(), call.arguments[2].string()},
-                      {call.arguments[3].string(), call.arguments[4].string()});
+    if (!layers) return;
+    const std::string why =
+        connect(*layers, {call.arguments[1].string(), call.arguments[2].string()},
+                {call.arguments[3].string(), call.arguments[4].string()});
     if (!why.empty()) report_.add(Code::RI_RANGE, "ConnectShaderLayers", why);
 }
 
@@ -176,8 +186,8 @@ void ShaderCalls::co_shader(const Call& call) {
     if (shader)
         all.push_back({std::move(handle),
                        std::make_shared<const ShaderBinding>(binding_of(call, std::move(shader)))});
-    else if (report_.is_new(fmt::format("co-shader {}", name)))
-        report_.add(Code::RI_SHADER_UNKNOWN, "linked", name, "it is left out");
+    else
+        report_unusable("linked", name, nullptr, "it is left out");
 }
 
 // Null: no light of that name was found.
@@ -185,8 +195,7 @@ Light ShaderCalls::light_of(const Call& call) {
     std::string_view name = call.arguments[0].string();
     std::shared_ptr<const rsl::Shader> shader = find(name);
     if (!shader || shader->kind != rsl::ShaderKind::Light) {
-        if (!names_nothing(name))
-            report_.add(Code::RI_SHADER_UNKNOWN, "light", name, "it is left out");
+        if (!names_nothing(name)) report_unusable("light", name, shader.get(), "it is left out");
         return nullptr;
     }
     auto made = std::make_shared<LightBinding>();

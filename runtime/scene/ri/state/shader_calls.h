@@ -20,6 +20,10 @@ class ShaderCalls {
     // shader, or of one that does nothing.
     Binding bind(const Call& call, size_t name_at, std::string_view kind);
     std::shared_ptr<const rsl::Shader> find(std::string_view name);
+    // A world begins, or ends: then the pictures of the maps that its shaders were given, or of
+    // all that were made.
+    void begin_world() { outside_ = used_; }
+    std::vector<std::string> end_world(bool all_maps);
     // Where files of a kind are looked for ("shader", "texture", "archive"), "" or ending in '/'.
     std::vector<std::string> folders(std::string_view kind) const;
 
@@ -36,10 +40,12 @@ class ShaderCalls {
     std::vector<Binding>* layers_of(std::string_view type);
     ShaderBinding binding_of(const Call& call, std::shared_ptr<const rsl::Shader> shader);
     Light light_of(const Call& call);
+    void report_unusable(std::string_view kind, std::string_view name, const rsl::Shader* found,
+                         std::string_view instead);
     std::string map_name(std::string_view parameter, const std::string& name,
                          const rsl::Shader& shader);
     std::string picture_file(const std::string& name, bool any_suffix) const;
-    std::string made_picture(const std::string& picture) const;
+    std::string made_picture(const std::string& picture);
 
     State& state_;
     StateReport& report_;
@@ -53,6 +59,7 @@ class ShaderCalls {
     };
     std::map<std::string, MadeMap, std::less<>> maps_;
     std::set<std::string, std::less<>> shadows_;  // that it makes
+    std::set<std::string> used_, outside_;        // pictures of maps: in all, before the world
 };
 
 }  // namespace kinora::ri

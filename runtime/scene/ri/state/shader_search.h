@@ -24,13 +24,14 @@ class ShaderSearch {
     // the first. Null: there is none, or it does not compile, which is a finding then.
     std::shared_ptr<const rsl::Shader> find(std::string_view name,
                                             const std::vector<std::string>& folders);
+    // The file that find() reads; "": there is none, and a shader of that name is ours.
+    std::string file_of(std::string_view name, const std::vector<std::string>& folders) const;
     // The text that one of these was compiled from.
     rsl::ShaderSource source_of(const rsl::Shader& shader) const;
     const rsl::CompileOptions& options() const { return options_; }
 
   private:
     using Made = std::shared_ptr<const rsl::Shader>;
-    std::string file_of(std::string_view name, const std::vector<std::string>& folders) const;
     Made compiled(const std::string& path, std::string_view name);
 
     rsl::CompileOptions options_;

@@ -115,8 +115,8 @@ TEST(RibAscii, FunctionsAndFiltersHaveNames) {
               Texts{"Procedural \"RunProgram\" [\"p\" \"d\"] [0 1 2 3 4 5]"});
     EXPECT_EQ(calls("ErrorHandler \"ignore\""), Texts{"ErrorHandler \"ignore\""});
     ReadCalls read = read_calls("PixelFilter \"round\" 2 2 Sides 1");
-    EXPECT_EQ(read.findings, Texts{"RIB_ARGUMENT 1:1"});
-    EXPECT_EQ(read.calls, Texts{"Sides 1i"});
+    EXPECT_EQ(read.findings, Texts{"RI_TOKEN_WRONG 1:1"});
+    EXPECT_EQ(read.calls, (Texts{"PixelFilter \"gaussian\" 2 2", "Sides 1i"}));
 }
 
 TEST(RibAscii, HandlesAreNumbersOrStrings) {

@@ -157,7 +157,6 @@ TEST_F(RiCoShaders, WhatCannotBeConnectedIsTold) {
          {std::string("ConnectShaderLayers \"surface\" \"two\" \"k\" \"one\" \"amount\" "),
           std::string("ConnectShaderLayers \"surface\" \"none\" \"k\" \"two\" \"k\" "),
           std::string("ConnectShaderLayers \"surface\" \"one\" \"amount\" \"none\" \"k\" "),
-          std::string("ConnectShaderLayers \"pattern\" \"one\" \"amount\" \"two\" \"k\" "),
           connected("nothing", "k"), connected("amount", "nothing"), connected("many", "k"),
           connected("Cout", "k")}) {
         RibWorlds r = worlds(both + wrong + kWall);

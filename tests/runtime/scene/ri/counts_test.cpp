@@ -18,7 +18,7 @@ constexpr const char* kPrimitives[] = {
     R"(PointsPolygons |[4] [0 1 2 3]| "P" [0 0 1 1 0 1 1 1 1 0 1 1] "facevarying float[2] st" [0 0 1 0 1 1 0 1])",
     R"(SubdivisionMesh "catmull-clark" |[4 3] [0 1 2 3 1 4 2]| ["interpolateboundary" "crease"] |[1 0 3 1] [1 0 1 2]| [2] "P" [0 0 1 1 0 1 1 1 1 0 1 1 2 0 1])",
     R"(PatchMesh "bilinear" |3| "nonperiodic" |2| "periodic" "P" [0 0 1 1 0 1 2 0 1 0 1 1 1 1 1 2 1 1])",
-    R"(PatchMesh "bicubic" |4| "periodic" |4| "nonperiodic" "Pz" [0 0 0 0 1 1 1 1 0 0 0 0 1 1 1 1])",
+    R"(PatchMesh "bicubic" |3| "periodic" |4| "nonperiodic" "Pz" [0 0 0 1 1 1 0 0 0 1 1 1])",
     R"(Basis "b-spline" |1| "catmull-rom" |1| PatchMesh "bicubic" |4| "nonperiodic" |5| "periodic" "Pz" [0 0 0 0 1 1 1 1 0 0 0 0 1 1 1 1 0 0 0 0])",
     R"(NuPatch |2 2| [0 0 1 1] 0 1 |2 2| [0 0 1 1] 0 1 "P" [0 0 1 1 0 1 0 1 1 1 1 1])",
     R"(TrimCurve |[1] [2]| [0 0 1 2 2] [0] [2] |[3]| [.1 .9 .5] [.1 .1 .9] [1 1 1] NuPatch |2 2| [0 0 1 1] 0 1 |2 2| [0 0 1 1] 0 1 "Pw" [0 0 1 1 1 0 1 1 0 1 1 1 1 1 1 1])",

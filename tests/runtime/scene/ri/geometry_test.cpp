@@ -191,6 +191,38 @@ TEST(RiPatches, PeriodicMeshesClose) {
     });
 }
 
+// A Bezier mesh of so many points, the first along u, and what it is told.
+struct MeshRow {
+    int points;
+    std::string basis, wrap;
+    bool good;
+};
+
+TEST(RiPatches, MeshesOfALeftOverPointAreLeftOut) {
+    const std::string bezier = "Basis \"bezier\" 3 \"bezier\" 3 ",
+                      spline = "Basis \"b-spline\" 1 \"bezier\" 3 ",
+                      hermite = "Basis \"hermite\" 2 \"bezier\" 3 ";
+    for (const MeshRow& row : std::vector<MeshRow>{{4, bezier, "nonperiodic", true},
+                                                   {5, bezier, "nonperiodic", false},
+                                                   {6, bezier, "nonperiodic", false},
+                                                   {7, bezier, "nonperiodic", true},
+                                                   {6, bezier, "periodic", true},
+                                                   {7, bezier, "periodic", false},
+                                                   {5, spline, "nonperiodic", true},
+                                                   {5, spline, "periodic", true},
+                                                   {6, hermite, "nonperiodic", true},
+                                                   {7, hermite, "nonperiodic", false}}) {
+        std::string heights;
+        for (int k = 0; k < 4 * row.points; ++k) heights += k % row.points % 2 ? " 1" : " 0";
+        RibWorlds r("WorldBegin " + row.basis + "PatchMesh \"bicubic\" " +
+                    std::to_string(row.points) + " \"" + row.wrap +
+                    "\" 4 \"nonperiodic\" \"Pz\" [" + heights + "] Sphere 1 -1 1 360 WorldEnd");
+        EXPECT_EQ(r.count("RI_COUNTS"), row.good ? 0 : 1) << row.points << row.basis << row.wrap;
+        EXPECT_EQ(r.diagnostics.findings().size(), row.good ? 0u : 1u) << r.findings();
+        EXPECT_EQ(r.primitives().size(), row.good ? 2u : 1u) << row.points << row.basis << row.wrap;
+    }
+}
+
 TEST(RiPatches, HeightsStandOverTheUnitSquare) {
     RibPicture r = drawn("Translate -.5 -.5 0 Patch \"bilinear\" \"Pz\" [0 0 1 1]");
     expect_shape(r, [](double x, double y) { return std::abs(x) < .5 && std::abs(y) < .5; });

@@ -171,13 +171,15 @@ std::vector<Values> RandomCallMaker::subdivision() {
 }
 
 std::vector<Values> RandomCallMaker::patch_mesh(const CountState& state) {
-    constexpr const char* kWraps[] = {"periodic", "nonperiodic"};
     const bool bicubic = below(2);
-    auto points = [&](int step) {
-        return bicubic ? std::max(4, step) + below(3) * step : 2 + below(4);
+    auto points = [&](bool periodic, int step) {
+        if (!bicubic) return 2 + below(4);
+        return periodic ? (1 + below(3)) * std::max(step, 1) : 4 + below(3) * std::max(step, 1);
     };
-    return {bicubic ? "bicubic" : "bilinear", points(state.ustep), one_of(kWraps),
-            points(state.vstep), one_of(kWraps)};
+    auto wrap = [](bool periodic) { return periodic ? "periodic" : "nonperiodic"; };
+    const bool u = below(2), v = below(2);
+    return {bicubic ? "bicubic" : "bilinear", points(u, state.ustep), wrap(u),
+            points(v, state.vstep), wrap(v)};
 }
 
 std::vector<Values> RandomCallMaker::nurbs() {
@@ -273,6 +275,10 @@ constexpr ArgumentsRow kArguments[] = {
     {Request::PointsPolygons, [](Maker& m, const CountState&) { return m.faces(false); }},
     {Request::PointsGeneralPolygons, [](Maker& m, const CountState&) { return m.faces(true); }},
     {Request::SubdivisionMesh, [](Maker& m, const CountState&) { return m.subdivision(); }},
+    {Request::Patch,
+     [](Maker& m, const CountState&) {
+         return std::vector<Values>{m.below(2) ? "bicubic" : "bilinear"};
+     }},
     {Request::PatchMesh, [](Maker& m, const CountState& state) { return m.patch_mesh(state); }},
     {Request::NuPatch, [](Maker& m, const CountState&) { return m.nurbs(); }},
     {Request::TrimCurve, [](Maker& m, const CountState&) { return m.trim(); }},

@@ -222,6 +222,28 @@ TEST_F(RiShaders, UnknownDisplacementsAndVolumesAreNone) {
     r.expect(8, 7, {1, 1, 1});
 }
 
+// The compiler says where the error is, and this what follows from it: each once.
+TEST_F(RiShaders, WhatDoesNotCompileIsNotCalledUnknown) {
+    folder_.file("broken.sl", "surface broken() { Ci = ; }");
+    RibWorlds r(folder_.search() + "WorldBegin Surface \"broken\" Surface \"broken\" " + kSquare +
+                "LightSource \"broken\" 1 Shader \"broken\" \"base\" WorldEnd");
+    EXPECT_EQ(r.count("RI_SHADER_UNKNOWN"), 0) << r.findings();
+    EXPECT_EQ(r.count("RI_SHADER_REFUSED"), 3) << r.findings();
+    EXPECT_EQ(r.count("RSL_SYNTAX"), 1) << r.findings();
+    EXPECT_NE(r.findings().find("broken.sl' does not compile; the default surface stands for it"),
+              std::string::npos)
+        << r.findings();
+    EXPECT_EQ(r.primitives().size(), 1u);
+}
+
+TEST_F(RiShaders, ShadersOfAnotherKindSayWhichTheyAre) {
+    RibPicture r = picture("Color 1 .5 0 Surface \"pull\" LightSource \"plain\" 1 " + kSquare);
+    EXPECT_EQ(r.count("RI_SHADER_UNKNOWN"), 0) << r.findings();
+    EXPECT_EQ(r.count("RI_SHADER_REFUSED"), 2) << r.findings();
+    EXPECT_NE(r.findings().find("it is a displacement shader"), std::string::npos) << r.findings();
+    r.expect(8, 7, {1, .5, 0});
+}
+
 // It is there, and has no light of its own.
 TEST_F(RiShaders, NullSurfacesAreBlack) {
     RibPicture r = picture("Surface \"null\" " + kSquare);
