@@ -202,6 +202,54 @@ TEST(SampledLights, StrategiesAndHeuristicsHaveOneMean) {
     EXPECT_NEAR(mean(2, "power"), lights, 1e-2 * lights);
 }
 
+// The mean over the pixels of each one's variance over seeds, and the mean.
+struct Noise {
+    double variance = 0, mean = 0;
+};
+Noise noise_of(const SceneText& scene) {
+    constexpr int kSeeds = 8, kPixels = 256;
+    std::vector<double> sum(kPixels), squares(kPixels);
+    for (int seed = 0; seed < kSeeds; ++seed) {
+        Rendering r(scene.text());
+        r.settings.integrator.seed = uint32_t(seed);
+        r.frame();
+        for (size_t k = 0; k < kPixels; ++k) {
+            double c = double(r.color(int(k % 16), int(k / 16)).x);
+            sum[k] += c, squares[k] += c * c;
+        }
+    }
+    Noise noise;
+    for (size_t k = 0; k < kPixels; ++k) {
+        noise.variance += (squares[k] - sum[k] * sum[k] / kSeeds) / (kSeeds - 1) / kPixels;
+        noise.mean += sum[k] / kSeeds / kPixels;
+    }
+    return noise;
+}
+
+// E. Veach and L. Guibas 1995: both strategies together are nowhere much worse than the better one,
+// and on the whole far better than either.
+TEST(SampledLights, WeighingIsAsGoodAsTheBetterStrategyEverywhere) {
+    constexpr int kSamples = 16;
+    struct {
+        double rough, radius;
+    } regions[] = {{0.05, 0.05}, {0.05, 0.7}, {0.15, 0.4}, {0.5, 0.05}, {0.5, 0.7}};
+    double whole[3] = {};
+    for (const auto& region : regions) {
+        Noise by[3];
+        for (int mis = 0; mis < 3; ++mis)
+            by[mis] = noise_of(
+                lit_floor(kPlate, 3, number("radius", region.radius) + number("samples", kSamples),
+                          surface(number("mis", mis) + number("samples", kSamples) +
+                                  number("dull", 0) + number("rough", region.rough))));
+        const double least = std::min(by[0].variance, by[2].variance);
+        EXPECT_LE(by[1].variance, 1.1 * least + by[0].mean * by[0].mean / (10 * kSamples))
+            << region.rough << " " << region.radius;
+        for (int mis = 0; mis < 3; ++mis)
+            whole[mis] += by[mis].variance / (by[0].mean * by[0].mean);
+    }
+    EXPECT_LE(whole[1], 0.35 * std::min(whole[0], whole[2]));
+}
+
 // A square halfway hides the lamp's lower part from some points and all of it from others.
 TEST(SampledLights, ShadowsTakeSamplesAway) {
     SceneText scene = lit_floor(kMatte, 2, number("samples", 64));
@@ -213,6 +261,93 @@ TEST(SampledLights, ShadowsTakeSamplesAway) {
     for (int x : {0, 2}) EXPECT_EQ(r.color(x, 8).x, 0) << x;
     double want = sphere_irradiance(r.place(14, 8), 2, 0.4);
     EXPECT_NEAR(r.color(14, 8).x, want, 1e-2 * want);
+}
+
+// ---- lobes of stdrsl under a white sky ----------------------------------------------------------
+
+// A square that the camera sees at that angle, within a cube that shines 1.
+double under_white_sky(const std::string& lobe, const std::string& init, double degrees) {
+    const std::string code = R"(#include <stdrsl/)" + lobe + R"(.h>
+class x() {
+    stdrsl_ShadingContext context;
+    stdrsl_Fresnel fresnel;
+    stdrsl_)" + lobe + R"( lobe;
+    public void begin() { context->init(); lobe->)" +
+                             init + R"( }
+    public void evaluateSamples(string what; output __radiancesample s[]) {
+        lobe->evalSpecularSamps(context, fresnel, s);
+    }
+    public void generateSamples(string what; output __radiancesample s[]) {
+        lobe->genSpecularSamps(context, fresnel, what, s);
+    }
+    public void lighting(output color Ci, Oi) { Ci = indirectspecular(this); }
+})";
+    SceneText scene;
+    scene.square("plate", 4)
+        .look("lobe", code)
+        .place("plate", "lobe", fmt::format("<rotate>1 0 0 {}</rotate>", degrees));
+    scene.cube("sky", 40).look("white", "surface white() { Ci = 1; Oi = 1; }");
+    scene.place("sky", "white");
+    Rendering r(scene.text());
+    EXPECT_EQ(r.findings(), "");
+    r.settings.integrator.samples_per_pixel = 4;
+    r.frame();
+    double sum = 0;
+    for (int y = 7; y < 9; ++y)
+        for (int x = 0; x < 16; ++x) sum += double(r.color(x, y).x);
+    return sum / 32;
+}
+
+// What the lobe reflects of light 1 from everywhere: its response over the half turn, by midpoints.
+double reflected(double degrees, const std::function<double(dvec3 L, dvec3 V)>& response) {
+    const double angle = degrees * kPi / 180;
+    const dvec3 V(std::sin(angle), 0, std::cos(angle));
+    constexpr int kSteps = 500;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            double z = (i + 0.5) / kSteps, turn = 2 * kPi * (j + 0.5) / kSteps;
+            double r = std::sqrt(1 - z * z);
+            sum += response({r * std::cos(turn), r * std::sin(turn), z}, V);
+        }
+    return sum * 2 * kPi / (double(kSteps) * kSteps);
+}
+
+// M. Ashikhmin and P. Shirley 2000, both exponents n, reflectance 1; with the cosine.
+double ashikhmin_shirley(dvec3 L, dvec3 V, double n) {
+    dvec3 H = glm::normalize(L + V);
+    return (n + 1) / (8 * kPi) * std::pow(H.z, n) * L.z / (glm::dot(H, V) * std::max(L.z, V.z));
+}
+// M. Ashikhmin and S. Premoze 2007 with Beckmann's distribution.
+double premoze(dvec3 L, dvec3 V, double m) {
+    double c2 = std::pow(glm::normalize(L + V).z, 2);
+    double p = std::exp((c2 - 1) / (c2 * m * m)) / (kPi * m * m * c2 * std::sqrt(c2));
+    return p * L.z / (4 * (L.z + V.z - L.z * V.z));
+}
+
+TEST(SampledLobes, ReflectUnderAWhiteSkyWhatTheirResponseIntegratesTo) {
+    for (double degrees : {5.0, 30.0, 60.0, 80.0})
+        for (double rough : {0.1, 0.5}) {
+            auto as = [&](dvec3 L, dvec3 V) {
+                return ashikhmin_shirley(L, V, 1 / (rough * rough));
+            };
+            const double want = reflected(degrees, as);
+            EXPECT_NEAR(
+                under_white_sky("SpecularAS",
+                                fmt::format("init(context, color 1, {}, 0, 1, 256, 256);", rough),
+                                degrees),
+                want, 3e-3 * want)
+                << "AS " << rough << " at " << degrees;
+            auto dbrdf = [&](dvec3 L, dvec3 V) { return premoze(L, V, rough); };
+            const double other = reflected(degrees, dbrdf);
+            EXPECT_NEAR(
+                under_white_sky(
+                    "SpecularDBRDF",
+                    fmt::format("init(context, \"beckmann\", color 1, {}, 256, 256);", rough),
+                    degrees),
+                other, 3e-3 * other)
+                << "DBRDF " << rough << " at " << degrees;
+        }
 }
 
 TEST(SampledLights, WrongWordsAndNumbersAreErrors) {
