@@ -32,6 +32,13 @@ void lightdensity(LowerCall& c) {
     c.set(c.b.select(c.b.op(jit::Op::IEq, sampled, c.b.i(0)), c.b.f(-1), density));
 }
 
+void lightbare(LowerCall& c) {
+    if (!c.lights.any_current()) return;
+    c.context.out.reads_bare_light = true;
+    auto [set, record] = c.lights.current();
+    c.set(record_triple(c.b, set, record, kLightBare));
+}
+
 void samplinglights(LowerCall& c) {
     if (!c.context.options.want_Ci) return c.set(c.b.f(-1));
     V3 P = c.globals.read(Global::P).v3(), D = c.v3(0);
@@ -93,6 +100,11 @@ void lightdensity(RefCall<Real>& c) {
         c.set(Dual<Real>(Real(light->sampled ? light->density : -1)));
 }
 template <class Real>
+void lightbare(RefCall<Real>& c) {
+    if (const ReferenceLight* light = c.eval.light)
+        for (size_t k = 0; k < 3; ++k) c.result.c[k] = Dual<Real>(Real(light->bare[k]));
+}
+template <class Real>
 void samplinglights(RefCall<Real>& c) {
     std::vector<double> args;
     add(args, c.eval.kernel_value(Global::P));
@@ -143,6 +155,9 @@ const Builtin kRows[] = {
      "In illuminance: how dense the light's samples are about L, by solid angle; -1 where the "
      "light has no sample methods.",
      kSurface},
+    {"lightbare", "c=", lower::lightbare, KINORA_RSL_REF(ref::lightbare),
+     kMessage | kVaryingResult | kForHeaders, 0,
+     "In illuminance: Cl before the renderer's shadow rays.", kSurface},
     {"samplinglights", "f=vff", lower::samplinglights, KINORA_RSL_REF(ref::samplinglights),
      kService | kTraces | kVaryingResult | kForHeaders, 0,
      "What lights with sample methods send from a direction, for illuminance: samplinglights("

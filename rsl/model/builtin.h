@@ -68,8 +68,8 @@ enum LegalIn : uint8_t {
     kAnyShader = 63,
 };
 
-// Whether a function of that name, a class's, a struct's or a co-shader's, makes samples. Names have
-// prefixes of owners and suffixes of struct arguments.
+// Whether a function of that name, a class's, a struct's or a co-shader's, makes samples. Names
+// have prefixes of owners and suffixes of struct arguments.
 inline bool is_sample_method(std::string_view name) {
     return name.find("generateSamples") != name.npos;
 }

@@ -22,7 +22,8 @@ enum LightColumn {
     // Of a sample of a light: how dense its light's samples are about L, by solid angle: their
     // number times the pdf. 0 where there is no sample, and in all other records.
     kLightDensity = 10,
-    kLightMessages = 11,
+    kLightBare = 11,  // Cl before shadow rays, where the surface reads it
+    kLightMessages = 14,
     // No column of a record, but an output of light kernels: the angle, radians, between the axis
     // of solar and the side of the cone that light comes from.
     kLightSpread = 255

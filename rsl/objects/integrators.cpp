@@ -32,21 +32,22 @@ constexpr Integrator kIntegrators[] = {
 };
 
 // Results of directlighting() in the order of the functions' parameters.
-constexpr struct {
-    std::string_view name;
-    int parameter;
-    bool shadowed = true;  // false: Kinora has only the shadowed one
-} kResults[] = {{"diffuseresult", 0},
-                {"specularresult", 1},
-                {"irradianceresult", 2},
-                {"unshadoweddiffuseresult", 3, false},
-                {"unshadowedspecularresult", 4, false}};
+constexpr std::string_view kResults[] = {"diffuseresult", "specularresult", "irradianceresult",
+                                         "unshadoweddiffuseresult", "unshadowedspecularresult"};
+constexpr size_t kUnshadowed = 3;  // from there on
+// Results of "lightgroups", one a group.
+constexpr std::string_view kGroupResults[] = {"groupeddiffuseresults", "groupedspecularresults",
+                                              "groupedunshadoweddiffuseresults",
+                                              "groupedunshadowedspecularresults"};
+
 // What decides how directlighting() weighs, in the order of the functions' parameters.
 constexpr std::string_view kWeighing[] = {"mis", "diffusemis", "heuristic"};
 constexpr std::string_view kHeuristics[] = {"veachpower2", "power", "balance"};
 constexpr std::string_view kDomains[] = {"hemisphere", "sphere"};
 
-constexpr std::string_view kUnwanted = "unwanted result";  // a name that no source can have
+// Names that no source can have.
+constexpr std::string_view kUnwanted = "unwanted result", kUnwantedGroups = "unwanted results",
+                           kNoGroups = "no groups";
 
 // Calls f with each expression below, operands before what holds them.
 template <class F>
@@ -76,6 +77,8 @@ const CallExpr* call_of_getlights(const Expr* e) {
 struct IntegratorArguments {
     std::vector<Expr*> hints;  // names and values of all others
     std::vector<Expr*> results{std::size(kResults)};
+    std::array<Expr*, std::size(kGroupResults)> of_groups{};
+    Expr* groups = nullptr;
     std::array<Expr*, std::size(kWeighing)> weighing{};
     Expr* domain = nullptr;
     Expr* samples = nullptr;
@@ -178,12 +181,13 @@ class ClassIntegrators {
                            "the lights are a list: shader lights[] = getlights();",
                                                        false;
             if (!category) args.push_back(call.args[1]), function += "_among";
-            args.push_back(hints_of(given, make));
+            args.push_back(hints_of(row, given, make));
             args.push_back(category ? category : make.text(""));
             args.push_back(make.number(method != "specularlighting"));
             args.push_back(make.number(method != "diffuselighting"));
             for (Expr* result : given.results)
                 args.push_back(result ? result : make.variable(kUnwanted));
+            add_groups(given, make, args);
             args.push_back(given.weighing[0] ? given.weighing[0] : make.number(1));
             args.push_back(given.weighing[1] ? given.weighing[1] : make.number(0));
             args.push_back(
@@ -200,11 +204,17 @@ class ClassIntegrators {
         return true;
     }
 
-    // The call that reports them, and tells the renderer the lights' domain.
-    Expr* hints_of(const IntegratorArguments& given, TreeBuilder& make) {
+    // The call that reports them, tells the renderer the lights' domain and empties the results of
+    // light groups.
+    Expr* hints_of(const Integrator& row, const IntegratorArguments& given, TreeBuilder& make) {
         Expr* hints = make.call("directlighting", given.hints);
-        if (!given.domain) return hints;
-        return make.binary(Op::Add, hints, make.call("samplingdomain", {given.domain}));
+        auto also = [&](Expr* zero) { hints = make.binary(Op::Add, hints, zero); };
+        if (given.domain) also(make.call("samplingdomain", {given.domain}));
+        for (Expr* result : given.of_groups)
+            if (given.groups && result)
+                also(make.call(bound_name("integrate_clear", row),
+                               {copy_tree(ast_, *result), copy_tree(ast_, *given.groups)}));
+        return hints;
     }
 
     // False where a literal is none of these; what else it may be is known when the shader runs.
@@ -265,19 +275,30 @@ class ClassIntegrators {
     }
 
     bool result(std::string_view name, Expr& value, IntegratorArguments* given) {
-        for (const auto& row : kResults) {
-            if (row.name != name) continue;
+        if (name == "lightgroups") return given->groups = &value, true;
+        for (size_t k = 0; k < std::size(kGroupResults); ++k)
+            if (kGroupResults[k] == name) return given->of_groups[k] = &value, true;
+        for (size_t k = 0; k < std::size(kResults); ++k) {
+            if (kResults[k] != name) continue;
             if (value.kind != ExprKind::Variable && value.kind != ExprKind::Index) {
                 report(Code::RSL_OUTPUT_ARGUMENT, value.span, fmt::format("\"{}\"", name),
                        "directlighting");
                 return true;
             }
-            if (!row.shadowed && said_.emplace(name).second)
-                report(Code::RSL_WITH_SHADOWS, value.span, name);
-            given->results[size_t(row.parameter)] = &value;
+            given->results[k] = &value;
             return true;
         }
         return false;
+    }
+
+    // Flags and variables of results without shadows and of light groups.
+    void add_groups(const IntegratorArguments& given, TreeBuilder& make, std::vector<Expr*>& args) {
+        args.push_back(make.number(given.results[kUnshadowed] || given.results[kUnshadowed + 1]));
+        args.push_back(given.groups ? given.groups : make.variable(kNoGroups));
+        for (Expr* result : given.of_groups) {
+            args.push_back(make.number(given.groups && result));
+            args.push_back(given.groups && result ? result : make.variable(kUnwantedGroups));
+        }
     }
 
     // The category of the lights that getlights() gives: directly, or to the one variable named.
@@ -354,7 +375,9 @@ class ClassIntegrators {
         TreeBuilder make(ast_, shader_.span);
         std::vector<Stmt*> members(class_.members.begin(), class_.members.end());
         members.push_back(
-            make.declare({make.symbol(SymbolKind::Local, kUnwanted, {BaseType::Color, -1})}));
+            make.declare({make.symbol(SymbolKind::Local, kUnwanted, {BaseType::Color, -1}),
+                          make.symbol(SymbolKind::Local, kUnwantedGroups, {BaseType::Color, 1}),
+                          make.symbol(SymbolKind::Local, kNoGroups, {BaseType::String, 1})}));
         class_.members = ast_.arena.copy(members);
     }
 
@@ -364,8 +387,7 @@ class ClassIntegrators {
     ClassDefinition& class_;
     std::span<Function* const> functions_;                // of its source
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
-    std::set<std::string_view> said_;
-    std::set<std::string_view> handles_, lists_;  // variables of type shader, and shader[]
+    std::set<std::string_view> handles_, lists_;          // variables of type shader, and shader[]
 };
 
 }  // namespace

@@ -27,10 +27,11 @@ struct ReferenceLight {
     bool lit = true;
     // What lightsource() finds: numbers by name; it asks for so many.
     std::vector<std::pair<std::string, std::vector<double>>> messages;
-    int number = 0;        // for observers
-    int which = 0;         // kLightNumber
-    bool sampled = false;  // kLightSampled
-    double density = 0;    // kLightDensity
+    int number = 0;                // for observers
+    int which = 0;                 // kLightNumber
+    bool sampled = false;          // kLightSampled
+    double density = 0;            // kLightDensity
+    std::array<double, 3> bare{};  // kLightBare
     // Whether it is of a category that illuminance names; else by `categories`.
     std::vector<std::pair<std::string, bool>> known_categories;
 };

@@ -52,8 +52,8 @@ class JitLights {
     jit::Record record(Run& run, size_t g, int kind) {
         auto columns = arena_.allocate_span<const float*>(rsl::kLightMessages);
         // What is no output of the kernel is 0 everywhere, and lit is 1.
-        const char* names[] = {"L.x",  "L.y",  "L.z",  "Cl.r", "Cl.g",   "Cl.b",
-                               "Ol.r", "Ol.g", "Ol.b", "lit",  "density"};
+        const char* names[] = {"L.x",  "L.y",  "L.z", "Cl.r",    "Cl.g",   "Cl.b",   "Ol.r",
+                               "Ol.g", "Ol.b", "lit", "density", "bare.r", "bare.g", "bare.b"};
         for (size_t k = 0; k < std::size(names); ++k) {
             auto output = run.out.find(std::string("light:0:") + names[k]);
             bool missing = output == run.out.end();

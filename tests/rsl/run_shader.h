@@ -176,6 +176,8 @@ class RunShader {
             }
             columns[kLightLit] = column(std::bit_cast<float>(light.lit), 256);
             columns[kLightDensity] = column(0, 256);
+            for (size_t c = 0; c < 3; ++c)
+                columns[kLightBare + c] = column(light.Cl[c], 256);  // nothing shadows it
             for (size_t c = 0; c < light.columns.size(); ++c)
                 columns[c] = column_of(light.columns[c]);
             for (size_t c = 0; c < kMessages; ++c)

@@ -35,6 +35,36 @@ void integrate_choose_of(shader which; string what; float wanted;
         which->generateSamples(what, samples);
 }
 
+// Results of light groups, none yet.
+float integrate_clear(output color sums[]; string groups[];) {
+    float k;
+    resize(sums, arraylength(groups));
+    for (k = 0; k < arraylength(groups); k += 1) sums[k] = 0;
+    return 0;
+}
+// The place of a light's group among the wanted ones; -1: it is of none.
+float integrate_group(string groups[]; string name;) {
+    float k, place = -1;
+    for (k = 0; k < arraylength(groups); k += 1)
+        if (groups[k] == name) place = k;
+    return place;
+}
+
+// Adds what a record gives through one lobe, with shadows and without, to the sums and to those of
+// its light's group. ARRIVES is what the record's light counts there.
+#define KINORA_ADD(RESULT, ARRIVES)                                                            \
+    RESULT += ARRIVES * Cl;                                                                    \
+    if (bare != 0) bare_##RESULT += ARRIVES * lightbare();                                     \
+    if (wants_##RESULT != 0 && group >= 0) groups_##RESULT[group] += ARRIVES * Cl;             \
+    if (wants_bare_##RESULT != 0 && group >= 0)                                                \
+        groups_bare_##RESULT[group] += ARRIVES * lightbare();
+#define KINORA_FIND_GROUP                                                                      \
+    if (wants_matte + wants_shine + wants_bare_matte + wants_bare_shine != 0) {                \
+        string name = "";                                                                      \
+        lightsource("__group", name);                                                          \
+        group = integrate_group(groups, name);                                                 \
+    }
+
 // A light's sample through one lobe: what it adds, weighed against COUNT samples of the material.
 // mis: 0 lights alone, 1 both, 2 the material alone. A density below 0: a light without samples.
 #define KINORA_LIGHT_SAMPLE(OF, WHAT, COUNT, RESULT)                                           \
@@ -46,7 +76,8 @@ void integrate_choose_of(shader which; string what; float wanted;
     if (density >= 0 && COUNT > 0)                                                             \
         weight = mis == 2 ? 0                                                                  \
                           : integrate_weight(density, COUNT * one[0]->materialPdf, power);     \
-    RESULT += weight * PI * Cl * one[0]->materialResponse;
+    response = weight * PI * one[0]->materialResponse;                                         \
+    KINORA_ADD(RESULT, response)
 
 // The material's samples through one lobe: each with what lights with sample methods send there.
 #define KINORA_MATERIAL_SAMPLES(SAMPLES, COUNT, RESULT, TEST)                                  \
@@ -54,25 +85,39 @@ void integrate_choose_of(shader which; string what; float wanted;
         vector along = SAMPLES[i]->direction;                                                  \
         density = COUNT * SAMPLES[i]->materialPdf;                                             \
         if (density > 0 && along . along > 0) {                                                \
-            color arriving = 0;                                                                \
+            response = SAMPLES[i]->materialResponse / density;                                 \
             illuminance(category, P, "recordset",                                              \
                         samplinglights(along, density, mis == 2 ? 0 : power)) {                \
-                if (TEST) arriving += Cl;                                                      \
+                if (TEST) {                                                                    \
+                    KINORA_FIND_GROUP                                                          \
+                    KINORA_ADD(RESULT, response)                                               \
+                }                                                                              \
             }                                                                                  \
-            RESULT += SAMPLES[i]->materialResponse / density * arriving;                       \
         }                                                                                      \
     }
 
 // Samples of each light of the category that passes the test, and the material's: `gloss` and, for
 // "diffusemis", `dull`, which are there already. OF: nothing, or the other shader and an arrow.
+// bare, wants_..: not 0 where results without shadows, and of light groups, are wanted.
+#define KINORA_FORMALS                                                                         \
+    color hints; string category; uniform float diffuse_part; uniform float specular_part;     \
+    output color diffuseresult; output color specularresult; output color irradianceresult;    \
+    output color unshadoweddiffuse; output color unshadowedspecular; uniform float bare;       \
+    string groups[]; uniform float wants_matte; output color groups_matte[];                   \
+    uniform float wants_shine; output color groups_shine[]; uniform float wants_bare_matte;    \
+    output color groups_bare_matte[]; uniform float wants_bare_shine;                          \
+    output color groups_bare_shine[]; float mis; float diffusemis; float power;
+#define KINORA_ARGUMENTS                                                                       \
+    hints, category, diffuse_part, specular_part, diffuseresult, specularresult,               \
+        irradianceresult, unshadoweddiffuse, unshadowedspecular, bare, groups, wants_matte,    \
+        groups_matte, wants_shine, groups_shine, wants_bare_matte, groups_bare_matte,          \
+        wants_bare_shine, groups_bare_shine, mis, diffusemis, power, dull, gloss
 #define KINORA_DIRECT(NAME, FORMALS, OF, TEST)                                                 \
-    color NAME(FORMALS color hints; string category; uniform float diffuse_part;               \
-               uniform float specular_part; output color diffuseresult;                        \
-               output color specularresult; output color irradianceresult;                     \
-               output color unshadoweddiffuse; output color unshadowedspecular; float mis;     \
-               float power; output __radiancesample dull[]; output __radiancesample gloss[];) { \
-        color matte = 0, shine = 0, irradiance = 0;                                            \
-        float i, weight = 1, density = -1, sampled = 0;                                        \
+    color NAME(FORMALS KINORA_FORMALS output __radiancesample dull[];                          \
+               output __radiancesample gloss[];) {                                             \
+        color matte = 0, shine = 0, irradiance = 0, bare_matte = 0, bare_shine = 0;            \
+        color response = 0;                                                                    \
+        float i, weight = 1, density = -1, sampled = 0, group = -1;                            \
         float dulls = mis > 0 && diffuse_part != 0 ? arraylength(dull) : 0;                    \
         float glosses = mis > 0 && specular_part != 0 ? arraylength(gloss) : 0;                \
         __radiancesample one[1];                                                               \
@@ -82,6 +127,7 @@ void integrate_choose_of(shader which; string what; float wanted;
                 density = lightdensity();                                                      \
                 sampled = max(sampled, density < 0 ? 0 : 1);                                   \
                 irradiance += Cl * max(0, towards . normalize(N));                             \
+                KINORA_FIND_GROUP                                                              \
                 if (diffuse_part != 0) {                                                       \
                     KINORA_LIGHT_SAMPLE(OF, "diffuse", dulls, matte)                           \
                 }                                                                              \
@@ -97,20 +143,12 @@ void integrate_choose_of(shader which; string what; float wanted;
         diffuseresult = matte;                                                                 \
         specularresult = shine;                                                                \
         irradianceresult = irradiance;                                                         \
-        unshadoweddiffuse = matte;                                                             \
-        unshadowedspecular = shine;                                                            \
+        unshadoweddiffuse = bare_matte;                                                        \
+        unshadowedspecular = bare_shine;                                                       \
         return matte + shine;                                                                  \
     }
 
 // With material samples, with those that the caller keeps, and of a material that has none.
-#define KINORA_FORMALS                                                                         \
-    color hints; string category; uniform float diffuse_part; uniform float specular_part;     \
-    output color diffuseresult; output color specularresult; output color irradianceresult;    \
-    output color unshadoweddiffuse; output color unshadowedspecular; float mis;                \
-    float diffusemis; float power;
-#define KINORA_ARGUMENTS                                                                       \
-    hints, category, diffuse_part, specular_part, diffuseresult, specularresult,               \
-        irradianceresult, unshadoweddiffuse, unshadowedspecular, mis, power, dull, gloss
 #define KINORA_DIRECT_FORMS(NAME, FORMALS, GIVEN, OF, CHOOSE, TEST)                            \
     KINORA_DIRECT(NAME##_by, FORMALS, OF, TEST)                                                \
     color NAME##_keeping(FORMALS KINORA_FORMALS output __radiancesample gloss[];) {            \
@@ -149,6 +187,8 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
 #undef KINORA_DIRECT
 #undef KINORA_MATERIAL_SAMPLES
 #undef KINORA_LIGHT_SAMPLE
+#undef KINORA_FIND_GROUP
+#undef KINORA_ADD
 
 // The mean over the samples of response / pdf x traced light. A pdf or a direction of 0: no ray.
 #define KINORA_INDIRECT(NAME, FORMALS, OF)                                                     \

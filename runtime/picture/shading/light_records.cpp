@@ -415,6 +415,17 @@ void LightRecords::area_records(Making& making, size_t l) {
     }
 }
 
+namespace {
+
+// Cl as it is before its shadows.
+const float* copy_of(const float* column, size_t count, Arena& arena) {
+    std::span<float> copy = arena.allocate_span<float>(count);
+    std::copy_n(column, count, copy.begin());
+    return copy.data();
+}
+
+}  // namespace
+
 void LightRecords::make_record(Making& making, const LightOutputs& statement,
                                const LightBinding& binding, std::span<float* const> out,
                                bool sample, const LightSamples* samples) const {
@@ -432,6 +443,8 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         set(rsl::kLightOl + k, statement.Ol[k]);
     }
     set(rsl::kLightDensity, statement.density);
+    for (size_t k = 0; k < 3 && making.grid.look->lowered.reads_bare_light; ++k)
+        columns[rsl::kLightBare + k] = copy_of(columns[rsl::kLightCl + k], padded(at.count), arena);
     if (statement.lit < 0) columns[rsl::kLightLit] = ones_column(arena, at.count);
     set(rsl::kLightLit, statement.lit);
     for (size_t m = 0; m < binding.messages.size(); ++m)

@@ -194,6 +194,7 @@ std::vector<rsl::ReferenceLight> point_lights(const GridHost& host, const jit::R
         light.lit = jit::bits_of(column(rsl::kLightLit)) != 0;
         light.sampled = jit::bits_of(record.uniforms[rsl::kLightSampled]) != 0;
         light.density = double(column(rsl::kLightDensity));
+        for (size_t k = 0; k < 3; ++k) light.bare[k] = double(column(rsl::kLightBare + k));
         size_t next = rsl::kLightMessages;
         for (size_t m = 0; m < lowered.light_messages.size(); ++m) {
             size_t count = size_t(rsl::component_count(lowered.light_message_types[m].base)) *

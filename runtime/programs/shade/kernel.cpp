@@ -118,6 +118,7 @@ void ShadeKernel::fill_records() {
         for (size_t k = 0; k < 3; ++k) {
             columns[rsl::kLightL + k] = column(kSlice, light.L[int(k)]);
             columns[rsl::kLightCl + k] = column(kSlice, light.Cl[int(k)]);
+            columns[rsl::kLightBare + k] = columns[rsl::kLightCl + k];
             columns[rsl::kLightOl + k] = column(kSlice, 1);
         }
         columns[rsl::kLightLit] = column(kSlice, jit::float_of(1));

@@ -182,6 +182,8 @@ void PointsLights::add_records(const Light& light, std::span<float* const> out, 
         for (size_t k = 0; k < 3; ++k)
             for (rsl::LightColumn column : {rsl::kLightL, rsl::kLightCl, rsl::kLightOl})
                 columns[column + k] = row(rsl::light_key(s, column, int(k)), zeros);
+        for (size_t k = 0; k < 3; ++k)  // no ray meets anything
+            columns[rsl::kLightBare + k] = columns[rsl::kLightCl + k];
         columns[rsl::kLightLit] =
             row(rsl::light_key(s, rsl::kLightLit, 0), filled(arena, count, jit::float_of(1)));
         float* uniforms = filled(arena, rsl::kLightUniforms + surface_->light_messages.size(), 0);

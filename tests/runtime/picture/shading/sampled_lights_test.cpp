@@ -350,6 +350,46 @@ TEST(SampledLobes, ReflectUnderAWhiteSkyWhatTheirResponseIntegratesTo) {
         }
 }
 
+// A lamp of a group behind a shade, and one of another in the open.
+TEST(SampledLights, ResultsWithoutShadowsAndOfGroupsAreParts) {
+    const std::string code = R"(
+class x(uniform string groups[] = {"key", "fill"}; uniform float which = 0;) {
+    public void evaluateSamples(string what; output __radiancesample s[]) {
+        uniform float i;
+        for (i = 0; i < arraylength(s); i += 1)
+            s[i]->setMaterialResponse(what == "diffuse" ? max(0, zcomp(vtransform("world",
+                                      s[i]->direction))) / PI : 0, 0);
+    }
+    public void lighting(output color Ci, Oi) {
+        color d = 0, bare = 0, each[], bare_each[];
+        directlighting(this, getlights(), "lightgroups", groups, "diffuseresult", d,
+                       "unshadoweddiffuseresult", bare, "groupeddiffuseresults", each,
+                       "groupedunshadoweddiffuseresults", bare_each);
+        Ci = which == 0 ? d : which == 1 ? bare : which == 2 ? each[0] : which == 3 ? each[1]
+           : which == 4 ? bare_each[0] : bare_each[1];
+    }
+})";
+    auto sun = [](const char* group, double Cl, const char* from) {
+        return fmt::format(
+            "light sun(uniform string __group = \"{}\";) {{"
+            " solar(vector \"world\" {}, 0) Cl = {}; }}",
+            group, from, Cl);
+    };
+    const double expected[] = {0.25 * 0.6, 1 + 0.25 * 0.6, 0, 0.25 * 0.6, 1, 0.25 * 0.6};
+    for (int which = 0; which < 6; ++which) {
+        SceneText scene = floor_scene(code, surface(number("which", which)));
+        scene.rsl_light("above", sun("key", 1, "(0, 0, -1)"));
+        scene.rsl_light("aside", sun("fill", 0.25, "(-0.8, 0, -0.6)"));
+        // The shade is far above the floor and out of the camera's sight.
+        scene.square("shade", 1.5).look("dark", "surface dark() { Ci = 0; Oi = 1; }");
+        scene.place("shade", "dark", "<translate>0 0 20</translate>");
+        Rendering r(scene.text());
+        EXPECT_EQ(r.findings(), "");
+        r.frame();
+        EXPECT_NEAR(r.color(8, 8).x, expected[which], 1e-5) << which;
+    }
+}
+
 TEST(SampledLights, WrongWordsAndNumbersAreErrors) {
     struct {
         const char* pair;
