@@ -68,7 +68,9 @@ auto Reference<Real>::kernel_value(Global id) -> Item {
     bool light_shader = layer->shader->kind == ShaderKind::Light;
     if (!((info.readers | info.writers) & in_kind(layer->shader->kind))) return Item(type);
     for (const ParamBinding& bound : layer->params)  // Cs, Os
-        if (bound.name == info.name)
+        if (bound.name == info.name && bound.kind == ParamBinding::Kind::Layer)
+            return left_by_layer(bound, type, 0);
+        else if (bound.name == info.name)
             return input(parameter_key(uint32_t(layer_index), bound.name, -1, form_of(type), 0),
                          type);
     bool behind =
@@ -120,6 +122,7 @@ auto Reference<Real>::parameter(const Symbol& symbol, int element) -> Item {
         return convert(expr(*symbol.initial), type);
     }
     size_t first = size_t(std::max(element, 0));
+    if (bound->kind == ParamBinding::Kind::Layer) return left_by_layer(*bound, type, first);
     Item value(type);
     if (bound->kind == ParamBinding::Kind::Constant) {
         if (type == BaseType::String && first < bound->strings.size())
@@ -133,6 +136,16 @@ auto Reference<Real>::parameter(const Symbol& symbol, int element) -> Item {
     if (bound->kind == ParamBinding::Kind::Frame) return into_layer(input(key, type));
     Item varying = input(key, type, Slopes::Given);
     return bound->plain ? varying : from_object(varying);
+}
+
+// What a layer below left in a parameter; 0 where there is no such.
+template <class Real>
+auto Reference<Real>::left_by_layer(const ParamBinding& bound, BaseType type, size_t element)
+    -> Item {
+    if (bound.below > layer_index) return Item(type);
+    const auto left = left_.find({layer_index - bound.below, bound.variable});
+    if (left == left_.end() || element >= left->second.size()) return Item(type);
+    return into_layer(convert(left->second[element], type));
 }
 
 template <class Real>

@@ -372,6 +372,7 @@ void Reference<Real>::run_layer(const Layer& next) {
     if constexpr (kObserved)
         if (in.observer) tell_inputs();
     block(shader.definition->body->body);
+    leave_parameters(shader);
     for (const ShaderParameter& p : shader.parameters)
         if (!p.type.is_array()) {
             const Item& value = variables_[p.symbol][0];
@@ -396,6 +397,17 @@ void Reference<Real>::run_layer(const Layer& next) {
         Oi[k] = Oi[k] + through * Oi_[k];
     }
     Ci_ = Ci, Oi_ = Oi, have_surface_ = true;
+}
+
+// What layers above may be linked to. Other than outputs it is as all layers have it.
+template <class Real>
+void Reference<Real>::leave_parameters(const Shader& shader) {
+    for (const ShaderParameter& p : shader.parameters) {
+        Storage items = storage(*p.symbol);
+        for (Item& item : items)
+            if (!p.output && !p.type.is_array()) item = out_of_layer(item);
+        left_[{layer_index, std::string(p.name)}] = std::move(items);
+    }
 }
 
 template <class Real>

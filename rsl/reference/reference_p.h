@@ -180,6 +180,7 @@ class Reference {
     Item kernel_value(Global id);  // in the kernel's
     Vec<Real> normal_of(const Vec<Real>& p);
     Item parameter(const Symbol& symbol, int element);
+    Item left_by_layer(const ParamBinding& bound, BaseType type, size_t element);
     std::vector<Item> array_parameter(const Symbol& symbol);
     std::vector<double> service(Service service, std::vector<double> args);
 
@@ -288,7 +289,9 @@ class Reference {
     void bring_back_N();
     Item given_N_, given_P_;  // to the displacements
     void run_layer(const Layer& next);
-    void output(const KernelKey& first, const Item& value);  // `first`: of its component 0
+    void leave_parameters(const Shader& shader);
+    std::map<std::pair<size_t, std::string>, Storage> left_;  // by layer and parameter
+    void output(const KernelKey& first, const Item& value);   // `first`: of its component 0
     void light_outputs();
 
     std::span<const Layer> layers_;

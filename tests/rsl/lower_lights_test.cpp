@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "rsl/reference/reference.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {
@@ -286,6 +287,42 @@ TEST(LowerKernel, WritesAovs) {
         "surface t(output varying color shine = 0;) { shine = color(1, 2, 3); Ci = 0; }", options);
     ASSERT_TRUE(shader.ok()) << shader.findings();
     EXPECT_EQ(shader.value("aov:shine.g"), 2);
+}
+
+ParamBinding link(const char* name, const char* variable) {
+    ParamBinding binding;
+    binding.name = name;
+    binding.kind = ParamBinding::Kind::Layer;
+    binding.below = 1;
+    binding.variable = variable;
+    return binding;
+}
+
+// At s = 1/4 and t = 1/2.
+TEST(LowerLayers, TheReferenceFollowsLinksAsKernelsDo) {
+    const std::vector<ParamBinding> params = {link("amount", "depth"), link("shade", "tone"),
+                                              link("spread", "depth"), link("third", "list"),
+                                              link("Cs", "tone")};
+    RunShader run(
+        "surface grain(output varying float depth = 0; color tone = 0; float list[3] = {0, 0, 0};)"
+        "{ depth = 2 * s; tone = color(s, t, 1); list[0] = 7; Ci = 0; Oi = 0; }"
+        "surface varnish(float amount = 9; color shade = 9, spread = 9; float third[3] = {9, 9, "
+        "9};)"
+        "{ Ci = color(amount + comp(shade, 1), comp(spread, 2) + third[0], comp(Cs, 2)); Oi = 1; }",
+        {}, params, true);
+    ASSERT_TRUE(run.ok()) << run.findings();
+    run.set("s", .25f), run.set("t", .5f);
+    ReferenceInputs inputs;
+    inputs.values = {{"s", .25}, {"t", .5}};
+    std::vector<Layer> layers;
+    for (const auto& shader : run.shaders) layers.push_back({shader.get(), params});
+    const ReferenceResult reference = run_reference<double>(layers, inputs);
+    auto kernel = run.run();
+    const std::pair<const char*, double> wanted[] = {{"Ci.r", 1}, {"Ci.g", 7.5}, {"Ci.b", 1}};
+    for (const auto& [name, value] : wanted) {
+        EXPECT_EQ(kernel[name][0], float(value)) << name;
+        EXPECT_EQ(reference.values.at(name), value) << name;
+    }
 }
 
 }  // namespace
