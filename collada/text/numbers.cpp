@@ -96,8 +96,9 @@ int32_t slow_int(std::string_view word, size_t at, NumberFaults& faults) {
     return 0;
 }
 
-// A finite number that is the whole word; false: it may be one all the same.
-bool usual_double(const char* p, const char* stop, double& value) {
+// A finite number that is the whole word; false: it may be one all the same. Flattened, since a
+// call of fast_float's reader costs a tenth of the time of long numbers.
+[[gnu::flatten]] bool usual_double(const char* p, const char* stop, double& value) {
     auto [end, error] = fast_float::from_chars(p, stop, value);
     return end == stop && error == std::errc{} && std::isfinite(value);
 }
