@@ -53,8 +53,9 @@ class LightRecords {
     // Run a light's kernel.
     void plain_records(Making& making, size_t light);
     void area_records(Making& making, size_t light);
-    // Records of solar with an angle: a sample of its cone each, with its share of the light.
-    void cone_records(Making& making, size_t light, const LightOutputs& statement,
+    // Records of solar with an angle: a sample of its cone each, with its share of the light. Where
+    // the block reads L, the kernel of `lit` runs again for each.
+    void cone_records(Making& making, size_t light, const LightOutputs& statement, Grid& lit,
                       std::span<float* const> out) const;
     // The most that a statement of the light makes at a time.
     size_t samples_of(size_t light, const LightOutputs& statement) const;
