@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "jit/math/math.h"
+#include "rsl/lower/services.h"
 #include "rsl/lower/values.h"
 #include "rsl/model/builtin.h"
 #include "rsl/model/kernel_keys.h"
@@ -137,6 +138,18 @@ void LightShader::begin(const Changes& changes) {
         context_.out.light_statements.push_back({kLightAmbient, false});
 }
 
+// L of a statement whose light comes from a cone: a direction in it that the renderer gives, or the
+// axis where that is 0. Blocks that do not read L leave no such input.
+V3 LightShader::sent_along(const Stmt& stmt, const V3& axis) {
+    const auto is_own = [&](const Source& light) { return light.stmt == &stmt; };
+    const size_t k = size_t(std::ranges::find_if(sources_, is_own) - sources_.begin());
+    V3 given;
+    for (int c = 0; c < 3; ++c)
+        given[size_t(c)] =
+            scalar_input(b_, light_key(k, kLightL, c), jit::Type::F, jit::Rate::Point);
+    return e_.select(b_.lt(e_.f(0), e_.dot(given, given)), given, axis);
+}
+
 // L points from the light. Lanes outside the cone keep a dark record.
 void LightShader::illuminate(const Stmt& stmt, const Expr* position, const Expr* axis,
                              const Expr* angle, const Stmt& body) {
@@ -153,13 +166,15 @@ void LightShader::illuminate(const Stmt& stmt, const Expr* position, const Expr*
     Value lit = b_.m(true);
     if (position) lit = inside(e_, cone_of(e_, tree_, axis, angle), L);
     regions_.guarded(b_.logical_and(e_.running, lit), [&] {
-        slots_.write(int(Global::L), lowered(BaseType::Vector, L));
+        const V3 sent = spreads ? sent_along(stmt, L) : L;
+        slots_.write(int(Global::L), lowered(BaseType::Vector, sent));
         bool outer_solar = std::exchange(in_solar_, position == nullptr);
         tree_.statement(body);
         in_solar_ = outer_solar;
         for (const Source& light : sources_) {
             if (light.stmt != &stmt) continue;
-            slots_.write(light.L, globals_.read(Global::L));
+            slots_.write(light.L,
+                         spreads ? lowered(BaseType::Vector, L) : globals_.read(Global::L));
             slots_.write(light.Cl, globals_.read(Global::Cl));
             slots_.write(light.Ol, globals_.read(Global::Ol));
             slots_.write(light.lit, lowered(BaseType::Bool, e_.running));

@@ -76,6 +76,8 @@ class LightShader {
         Lowered left_Cl, left_Ol;  // as the statement left the globals
     };
 
+    V3 sent_along(const Stmt& stmt, const V3& axis);
+
     Emitter& e_;
     jit::Builder& b_;
     LoweringContext& context_;

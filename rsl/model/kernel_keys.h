@@ -11,6 +11,7 @@
 //                                  LAYER: the shader's index in its stack, 0 in a light
 //                1                 1 everywhere: the derivative of u by u and of v by v
 //                Cs and Os only where a ParamBinding has that name (as param:LAYER:Cs.r), else 1
+//                light:k:L.x       in a light: L of statement k, a solar with an angle, where it is not 0
 //   frame rate   E time dtime camera:near camera:far (clipping distances, for depth())
 //                param:LAYER:NAME[.c]         a parameter; ints for strings (interned ids)
 //                param:LAYER:NAME[k][.c]      an array parameter's element; the components of a

@@ -187,6 +187,21 @@ TEST(LowerLights, SolarTellsTheAngleOfItsCone) {
     EXPECT_EQ(out.count("light:0:spread") + out.count("light:2:spread"), 0u);
 }
 
+// The renderer gives L in the cone, or 0 for the axis; a block that does not read it takes none.
+TEST(LowerLights, SolarTakesADirectionOfItsCone) {
+    RunShader light("light l() { solar(vector(0, 0, -2), 0.5) Cl = color(L); }");
+    ASSERT_TRUE(light.ok()) << light.findings();
+    light.set("light:0:L.x", {0, 0.6f});
+    light.set("light:0:L.z", {0, -0.8f});
+    auto out = light.run(2);
+    EXPECT_EQ(out["light:0:Cl.r"], (std::vector<float>{0, 0.6f}));
+    EXPECT_EQ(out["light:0:Cl.b"], (std::vector<float>{-1, -0.8f}));
+    EXPECT_EQ(out["light:0:L.z"], (std::vector<float>{1, 1}));  // the axis, from Ps
+    RunShader plain("light l() { solar(vector(0, 0, -2), 0.5) Cl = 1; }");
+    for (const jit::InputInfo& input : plain.kernels.point->inputs)
+        EXPECT_FALSE(input.name.starts_with("light:")) << input.name;
+}
+
 // Behind its only statement, and only where that lights.
 TEST(LowerLights, WhatIsAssignedBehindTheStatementCounts) {
     RunShader light(

@@ -378,6 +378,50 @@ TEST(Solar, WithoutAnAngleCastsOneHardShadow) {
     EXPECT_EQ(small.stats.rays - 16 * 16, 16 * shadow_rays);
 }
 
+// A sky of two colors, whose border stands nearly upright: sums over its cone. The block runs for
+// each direction, so what it leaves where it sends nothing is dark.
+TEST(Solar, ABlockThatReadsLRunsForEachDirection) {
+    const std::string sky =
+        "light s() { solar(vector \"world\" (.001, 0, -1), 1) {"
+        " vector w = vtransform(\"world\", L);"
+        " Cl = xcomp(w) > 0 ? color(1, 0, 0) : color(0, 1, 0); if (ycomp(w) > 0) Cl += color(0, 0, "
+        "1); } }";
+    dvec3 want(0.0);
+    constexpr int kRings = 400, kTurns = 800;
+    for (int k = 0; k < kRings; ++k)
+        for (int t = 0; t < kTurns; ++t) {  // L leads down; the axis is tilted by 0.001
+            const double c = std::cos(1.0), z = -(1 - (k + 0.5) / kRings * (1 - c));
+            const double out = std::sqrt(1 - z * z), turn = 2 * kPi * (t + 0.5) / kTurns;
+            const double x = out * std::cos(turn) - 0.001 * z, y = out * std::sin(turn);
+            want += -z / (kRings * kTurns) * dvec3(x > 0, x <= 0, y > 0);
+        }
+    EXPECT_NEAR(want.x, 0.3853, 1e-3);
+    for (uint32_t samples : {4u, 256u}) {
+        SceneText scene = floor_scene("surface white() { Oi = 1; Ci = diffuse(normalize(N)); }");
+        scene.rsl_light("sky", sky);
+        SceneOptions options;
+        options.quality.light_samples = samples;
+        Rendering r(scene.text(), options);
+        r.frame(32, 32);
+        EXPECT_EQ(r.findings(), "");
+        dvec3 mean(0.0);
+        for (int k = 0; k < 1024; ++k) mean += dvec3(r.color(k % 32, k / 32)) / 1024.0;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], want[c], 0.004) << samples << " " << c;
+    }
+}
+
+// A block that does not read L runs once.
+TEST(Solar, ABlockThatDoesNotReadLRunsOnce) {
+    auto light_points = [](const std::string& body) {
+        Rendering r =
+            sunlit("light s() { solar(vector \"world\" (0, 0, -1), 0.05) " + body + " }", 16);
+        return r.frame().stats.light_points;
+    };
+    const uint64_t once = light_points("Cl = 1;");
+    EXPECT_EQ(light_points("{ color c = 1; Cl = c; }"), once);
+    EXPECT_EQ(light_points("Cl = 1 + max(0, zcomp(L));"), 17 * once);
+}
+
 TEST(Solar, SoftShadowsHaveTheSameBytesForAnyThreadsAndTargets) {
     const std::string sun = "light s() { solar(vector \"world\" (0.2, 0, -1), 0.05) Cl = 1; }";
     Rendering first = sunlit(sun, 8);

@@ -322,13 +322,34 @@ void LightRecords::plain_records(Making& making, size_t l) {
     std::span<float*> out = run_kernel(making, l, nullptr);
     for (const LightOutputs& statement : bindings_.statements(l))
         if (statement.spread >= 0)
-            cone_records(making, l, statement, out);
+            cone_records(making, l, statement, lit, out);
         else
             make_record(making, statement, bindings_.binding(making.grid.look->index, l), out,
                         false, nullptr);
 }
 
-void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& statement,
+namespace {
+
+bool reads_sent_L(const ShaderInstance& look) {
+    return std::ranges::any_of(look.full.columns,
+                               [](uint16_t c) { return c >= kColSentL && c < kColSentL + 3; });
+}
+
+// What the kernel gives for light that comes along a sample of a cone.
+std::span<float*> run_along(KernelRunner& kernels, Grid& lit, const ConeSamples& cone, size_t s) {
+    const size_t rows = padded(lit.count());
+    for (size_t c = 0; c < 3; ++c) {
+        float* const L = lit.memory.arena.allocate_span<float>(rows).data();
+        for (size_t i = 0; i < rows; ++i) L[i] = -cone.row(s, c)[i];
+        lit.columns[kColSentL + c] = L;
+    }
+    lit.memory.counters.light_points += lit.count();
+    return kernels.run(lit.look->full, lit);
+}
+
+}  // namespace
+
+void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& statement, Grid& lit,
                                 std::span<float* const> out) const {
     const LightPoints& at = making.at;
     Arena& arena = making.grid.memory.arena;
@@ -342,6 +363,7 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     else
         make_record(making, statement, binding, out, false, nullptr);
     std::span<float*> rows = arena.allocate_span<float*>(out.size());
+    const bool anew = wide && reads_sent_L(*lit.look);
     SkyCones cones{at.count,         {}, angle, at.series, raytrace::hash(uint32_t(l), frame_.seed),
                    uint32_t(samples)};
     for (size_t c = 0; wide && c < 3; ++c) cones.axis[c] = out[size_t(statement.L[c])];
@@ -349,12 +371,14 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
         ConeSamples cone(cones, padded(at.count), arena);
         cone.find(first);
         for (size_t s = 0; s < std::min<size_t>(ConeSamples::kAtOnce, samples - first); ++s) {
-            std::copy(out.begin(), out.end(), rows.begin());
+            std::span<float* const> sent = out;
+            if (anew) sent = run_along(kernels_, lit, cone, s);
+            std::copy(sent.begin(), sent.end(), rows.begin());
             for (size_t c = 0; c < 3; ++c) {
                 rows[size_t(statement.L[c])] = cone.row(s, c);
                 if (statement.Cl[c] < 0) continue;
                 float* const share = arena.allocate_span<float>(padded(at.count)).data();
-                const float* whole = out[size_t(statement.Cl[c])];
+                const float* whole = sent[size_t(statement.Cl[c])];
                 for (size_t i = 0; i < padded(at.count); ++i) share[i] = whole[i] / float(samples);
                 rows[size_t(statement.Cl[c])] = share;
             }
@@ -388,6 +412,7 @@ void LightRecords::area_records(Making& making, size_t l) {
     auto of_point = [&](uint16_t c) -> const float* {
         if (c >= kColPs && c < kColPs + 3) return at.P[c - kColPs];
         if (c >= kColNs && c < kColNs + 3) return at.N[c - kColNs];
+        if (c >= kColSentL && c < kColSentL + 3) return at.zeros;
         return c == kColRng ? at.rng : nullptr;
     };
     for (uint16_t column : look.full.columns)

@@ -78,8 +78,9 @@ class LightRecords {
     // What one light sends from the directions of samplinglights.
     void record_along(Making& making, size_t light, const jit::ServiceCall& call);
     void area_records(Making& making, size_t light);
-    // Records of solar with an angle: a sample of its cone each, with its share of the light.
-    void cone_records(Making& making, size_t light, const LightOutputs& statement,
+    // Records of solar with an angle: a sample of its cone each, with its share of the light. Where
+    // the block reads L, the kernel of `lit` runs again for each.
+    void cone_records(Making& making, size_t light, const LightOutputs& statement, Grid& lit,
                       std::span<float* const> out) const;
     // The most that a statement of the light makes at a time.
     size_t samples_of(size_t light, const LightOutputs& statement) const;

@@ -67,11 +67,13 @@ uint16_t find_column(const KernelKey& key) {
             return space_column(key, kColToCurrent);
         case KeyKind::SpaceFromCurrent:
             return space_column(key, kColFromCurrent);
+        case KeyKind::LightRecord:
+            return key.light_column() == rsl::kLightL ? uint16_t(kColSentL + key.component)
+                                                      : kNoColumn;
         case KeyKind::None:
         case KeyKind::CameraNear:
         case KeyKind::CameraFar:
         case KeyKind::Parameter:
-        case KeyKind::LightRecord:
         case KeyKind::Aov:
         case KeyKind::Message:
             break;

@@ -39,8 +39,8 @@ enum Column : uint16_t {
     kColAlpha = kColOi + 3,
     kColToCurrent,  // space:object:to_current and space:shader:...
     kColFromCurrent = kColToCurrent + 12,
-    kColVarying =
-        kColFromCurrent + 12,  // then ShaderInstance::varying, each value and its du and dv
+    kColSentL = kColFromCurrent + 12,  // L of a light that comes from a cone; 0: its axis
+    kColVarying = kColSentL + 3,       // then ShaderInstance::varying, each value and its du and dv
 };
 
 // Columns that hold one number everywhere: u and v are the parameters of the surface.
