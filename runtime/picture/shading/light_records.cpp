@@ -287,12 +287,17 @@ std::span<PointRays> LightRecords::accounts(const Making& making) {
     return all.empty() ? all : all.subspan(making.at.first, making.at.count);
 }
 
-std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, LightAnswer* answer) {
+LightRecords::LitGrid::LitGrid(const ShadingFrame& frame, const Making& making, size_t light)
+    : Grid(frame, making.grid.memory, making.grid.hits,
+           making.grid.points.subspan(making.at.first, making.at.count),
+           &look_of_light(frame, light)) {}
+
+std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, Grid& lit,
+                                           LightAnswer* answer) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
-    const ShaderInstance& look = look_of_light(frame_, l);
+    const ShaderInstance& look = *lit.look;
     Arena& arena = grid.memory.arena;
-    Grid lit(frame_, grid.memory, grid.hits, grid.points.subspan(at.first, at.count), &look);
     lit.depth = grid.depth;
     lit.ray = grid.ray;
     lit.shadows = grid.shadows;
@@ -319,7 +324,8 @@ void LightRecords::make_records(Making& making, size_t l) {
 }
 
 void LightRecords::plain_records(Making& making, size_t l) {
-    std::span<float*> out = run_kernel(making, l, nullptr);
+    LitGrid lit(frame_, making, l);
+    std::span<float*> out = run_kernel(making, l, lit, nullptr);
     for (const LightOutputs& statement : bindings_.statements(l))
         if (statement.spread >= 0)
             cone_records(making, l, statement, lit, out);

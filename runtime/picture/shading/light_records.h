@@ -58,7 +58,11 @@ class LightRecords {
     void find_present();
     static std::span<PointRays> accounts(const Making& making);
     // Run a light's kernel.
-    std::span<float*> run_kernel(const Making& making, size_t light, LightAnswer* answer);
+    struct LitGrid : Grid {  // the lit points, for the light's kernel
+        LitGrid(const ShadingFrame& frame, const Making& making, size_t light);
+    };
+    std::span<float*> run_kernel(const Making& making, size_t light, Grid& lit,
+                                 LightAnswer* answer);
     void plain_records(Making& making, size_t light);
     void sampled_records(Making& making, size_t light);
     // One sample of a light, of `counts` at each point.
