@@ -81,6 +81,14 @@ MeshDefinition empty_mesh(const MeshDefinition& like) {
     return made;
 }
 
+// Of a mesh that nothing joins any more: room that was doubled for more is a quarter of it.
+void give_back_room(MeshDefinition& mesh) {
+    mesh.positions.shrink_to_fit();
+    PrimitiveGroup& group = mesh.groups[0];
+    group.triangles.shrink_to_fit();
+    for (VertexAttribute& a : group.attributes) a.values.shrink_to_fit(), a.corners.shrink_to_fit();
+}
+
 // The same for things of which none is more than some thousand times as large as another.
 int class_of_size(const std::vector<dvec3>& positions) {
     constexpr double kOctaves = 12;
@@ -112,7 +120,10 @@ uint32_t MergedMeshes::add(std::vector<MeshDefinition>& meshes, const MeshDefini
     auto [entry, is_new] =
         open_.try_emplace({look, {variables_of(group), class_of_size(positions_)}}, kNone);
     uint32_t& open = entry->second;
-    if (!is_new && meshes[open].groups[0].triangles.size() > kMostCorners) is_new = true;
+    if (!is_new && meshes[open].groups[0].triangles.size() > kMostCorners) {
+        give_back_room(meshes[open]);
+        is_new = true;
+    }
     if (is_new) {
         open = uint32_t(meshes.size());
         meshes.push_back(empty_mesh(mesh));
