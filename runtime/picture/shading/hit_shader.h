@@ -15,16 +15,19 @@ struct HitOutputs {
     std::span<float* const> columns;  // by hit
 };
 
+class Lamps;
+
 class HitShader {
   public:
     HitShader(const ShadingFrame& frame, KernelRunner& kernels, LightRecords& lights,
-              Transmission& transmission, Volumes& volumes)
+              Transmission& transmission, Volumes& volumes, Lamps& lamps)
         : frame_(frame),
           kernels_(kernels),
           lights_(lights),
           transmission_(transmission),
           shadows_(frame, transmission),
-          volumes_(volumes) {}
+          volumes_(volumes),
+          lamps_(lamps) {}
 
     // The colours of hits of rays with that tag, with what volumes before them add. `outputs`:
     // wanted beside Ci and Oi.
@@ -49,6 +52,7 @@ class HitShader {
     Transmission& transmission_;
     ShadowRays shadows_;
     Volumes& volumes_;
+    Lamps& lamps_;
 };
 
 }  // namespace kinora

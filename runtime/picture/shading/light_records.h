@@ -31,6 +31,8 @@ class LightRecords {
 
     // Of a grid: fewer where there are many lights, so that all their records stay in the cache.
     size_t most_points() const;
+    const LightBindings& bindings() const { return bindings_; }
+    const AreaLights& areas() const { return area_lights_; }
     // What every grid with lights needs for them.
     void want_columns(Grid& grid) const;
     // The records of a grid's own points, as its set 0. Grid::shadows casts their shadows.
