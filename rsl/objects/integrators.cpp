@@ -134,10 +134,16 @@ class ClassIntegrators {
         return variable && lists_.contains(variable->name);
     }
 
-    // Names of variables of type shader, wherever they are declared.
+    bool is_open(const Expr& e) const {
+        const auto* variable = as_if<VariableExpr>(&e);
+        return variable && open_.contains(variable->name);
+    }
+
+    // Names of variables of type shader, and of resizable arrays, wherever they are declared.
     void list_handles() {
         auto add = [&](const Symbol* symbol) {
             if (symbol->handle) (symbol->type.is_array() ? lists_ : handles_).insert(symbol->name);
+            if (symbol->type.array_length == 0 || symbol->length) open_.insert(symbol->name);
         };
         auto look = [&](Stmt* stmt, auto& self) -> void {
             if (auto* declared = as_if<DeclareStmt>(stmt))
@@ -212,8 +218,9 @@ class ClassIntegrators {
         if (given.domain) also(make.call("samplingdomain", {given.domain}));
         for (Expr* result : given.of_groups)
             if (given.groups && result)
-                also(make.call(bound_name("integrate_clear", row),
-                               {copy_tree(ast_, *result), copy_tree(ast_, *given.groups)}));
+                also(make.call(
+                    bound_name(is_open(*result) ? "integrate_resize" : "integrate_clear", row),
+                    {copy_tree(ast_, *result), copy_tree(ast_, *given.groups)}));
         return hints;
     }
 
@@ -388,6 +395,7 @@ class ClassIntegrators {
     std::span<Function* const> functions_;                // of its source
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
     std::set<std::string_view> handles_, lists_;          // variables of type shader, and shader[]
+    std::set<std::string_view> open_;                     // resizable arrays
 };
 
 }  // namespace

@@ -35,12 +35,15 @@ void integrate_choose_of(shader which; string what; float wanted;
         which->generateSamples(what, samples);
 }
 
-// Results of light groups, none yet.
+// Results of light groups, none yet. An array of fixed length has as many as fit.
 float integrate_clear(output color sums[]; string groups[];) {
     float k;
-    resize(sums, arraylength(groups));
-    for (k = 0; k < arraylength(groups); k += 1) sums[k] = 0;
+    for (k = 0; k < min(arraylength(groups), arraylength(sums)); k += 1) sums[k] = 0;
     return 0;
+}
+float integrate_resize(output color sums[]; string groups[];) {
+    resize(sums, arraylength(groups));
+    return integrate_clear(sums, groups);
 }
 // The place of a light's group among the wanted ones; -1: it is of none.
 float integrate_group(string groups[]; string name;) {
@@ -55,8 +58,9 @@ float integrate_group(string groups[]; string name;) {
 #define KINORA_ADD(RESULT, ARRIVES)                                                            \
     RESULT += ARRIVES * Cl;                                                                    \
     if (bare != 0) bare_##RESULT += ARRIVES * lightbare();                                     \
-    if (wants_##RESULT != 0 && group >= 0) groups_##RESULT[group] += ARRIVES * Cl;             \
-    if (wants_bare_##RESULT != 0 && group >= 0)                                                \
+    if (wants_##RESULT != 0 && group >= 0 && group < arraylength(groups_##RESULT))             \
+        groups_##RESULT[group] += ARRIVES * Cl;                                                \
+    if (wants_bare_##RESULT != 0 && group >= 0 && group < arraylength(groups_bare_##RESULT))   \
         groups_bare_##RESULT[group] += ARRIVES * lightbare();
 #define KINORA_FIND_GROUP                                                                      \
     if (wants_matte + wants_shine + wants_bare_matte + wants_bare_shine != 0) {                \

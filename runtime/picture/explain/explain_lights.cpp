@@ -7,7 +7,7 @@
 #include <set>
 
 #include "runtime/picture/explain/explain_p.h"
-#include "runtime/picture/shading/light_bindings.h"
+#include "runtime/picture/lights/light_bindings.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
 namespace kinora {

@@ -7,8 +7,8 @@
 
 #include "raytrace/accel.h"
 #include "raytrace/random/series.h"
+#include "runtime/picture/lights/light_bindings.h"
 #include "runtime/picture/shading/grid.h"
-#include "runtime/picture/shading/light_bindings.h"
 #include "runtime/picture/shading/lit_points.h"
 
 namespace kinora {

@@ -51,6 +51,14 @@ int flags_of(const Lanes& lanes) {  // the same for all
     return lanes.integer(Row::Flags, lanes.first());
 }
 
+// Over the hemisphere: a gather that sums diffuse light. Narrower ones are mirrors.
+bool is_diffuse(const Lanes& lanes) {
+    constexpr float kWide = 1.5f;
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
+        if (lanes.asks(lane) && !(lanes.number(Row::Angle, lane) >= kWide)) return false;
+    return true;
+}
+
 void copy_colors(std::span<const GatherResult> results, std::span<float* const> columns,
                  const raytrace::ShadeResult& from, size_t count) {
     size_t c = 0;
@@ -180,7 +188,7 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     Call own(*this, grid, lanes, plan, results, records);
     own.mark_absent(most);
     queue_.send(
-        {RayKind::Gather, grid, lanes, plan, 0, Row::Label},
+        {RayKind::Gather, grid, lanes, plan, 0, Row::Label, false, is_diffuse(lanes)},
         [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
             own.add(rays, samples, slot);
         },

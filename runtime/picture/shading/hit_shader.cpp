@@ -10,6 +10,7 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/insight.h"
+#include "runtime/picture/shading/lamps.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/shading_frame.h"
 
@@ -220,6 +221,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         put_output(grid, Ci[k], 0, result.Ci[k]);
         put_output(grid, Oi[k], 1, result.Oi[k]);
     }
+    lamps_.show(grid, result);
     for (size_t i = 0; result.passages && i < grid.rays.size(); ++i) {
         const PointRays& rays = grid.rays[i];
         const uint32_t before = hits.rays->spent[hits.ray[points[i]]];

@@ -15,16 +15,19 @@ struct HitOutputs {
     std::span<float* const> columns;  // by hit
 };
 
+class Lamps;
+
 class HitShader {
   public:
     HitShader(const ShadingFrame& frame, KernelRunner& kernels, LightRecords& lights,
-              Transmission& transmission, Volumes& volumes)
+              Transmission& transmission, Volumes& volumes, Lamps& lamps)
         : frame_(frame),
           kernels_(kernels),
           lights_(lights),
           queue_(frame, *this, transmission),
           shadows_(frame, queue_),
-          volumes_(volumes) {}
+          volumes_(volumes),
+          lamps_(lamps) {}
 
     // The colours of hits of rays with that tag, with what volumes before them add. `outputs`:
     // wanted beside Ci and Oi.
@@ -52,6 +55,7 @@ class HitShader {
     RayQueue queue_;
     LampRaysAtOnce shadows_;
     Volumes& volumes_;
+    Lamps& lamps_;
 };
 
 }  // namespace kinora

@@ -126,22 +126,28 @@ size_t count_points(const Grid& grid, bool PointRays::*flag) {
 
 }  // namespace
 
-void KernelRunner::run_noting(Grid& grid) const {
+std::span<float*> KernelRunner::run_in_the_dark(Grid& grid) const {
     Arena& arena = grid.memory.arena;
     const BoundKernel& bound = grid.look->full;
-    const size_t ended = count_points(grid, &PointRays::ended),
-                 thinned = count_points(grid, &PointRays::thinned);
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
     NotingHost host(grid, services_);
-    // Its faults may come of what it does not know yet.
+    // Its faults may come of what it does not know.
     bound.run({.count = grid.count(),
                .frame = block_of(frame_, *grid.look, bound),
                .columns = grid.columns,
-               .out = take_outputs(bound.kernel(), grid.count(), arena),
+               .out = out,
                .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
                .record_sets = grid.record_sets,
                .host = host,
                .stop = frame_.stop},
               arena);
+    return out;
+}
+
+void KernelRunner::run_noting(Grid& grid) const {
+    const size_t ended = count_points(grid, &PointRays::ended),
+                 thinned = count_points(grid, &PointRays::thinned);
+    run_in_the_dark(grid);
     grid.memory.counters.out_of_rays -= count_points(grid, &PointRays::ended) - ended;
     grid.memory.counters.thinned -= count_points(grid, &PointRays::thinned) - thinned;
     start_accounts(grid);

@@ -31,6 +31,8 @@ class KernelRunner {
     void start_accounts(Grid& grid) const;
     // Runs the look's kernel for what its calls of services note; accounts and outputs are lost.
     void run_noting(Grid& grid) const;
+    // What the look's kernel gives without lights and rays; it prints and bakes nothing.
+    std::span<float*> run_in_the_dark(Grid& grid) const;
     // Runs a kernel of the grid's look; its output rows, from the thread's arena.
     std::span<float*> run(const BoundKernel& bound, Grid& grid);
 

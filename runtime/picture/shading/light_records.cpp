@@ -395,6 +395,14 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     if (making.record_count < end) dark_records(making, statement, binding, end);
 }
 
+// Of a light on geometry, whose samples share its light; its own surface has none of it.
+static void take_share(const AreaLight& light, const LightPoints& at, float* Cl) {
+    for (size_t i = 0; i < padded(at.count); ++i) {
+        const bool own = at.surface[std::min(i, at.count - 1)] == light.surface;
+        Cl[i] = own || !light.has_area() ? 0.0f : Cl[i] / float(light.samples);
+    }
+}
+
 void LightRecords::area_records(Making& making, size_t l) {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
@@ -436,11 +444,7 @@ void LightRecords::area_records(Making& making, size_t l) {
         grid.memory.counters.light_points += at.count;
         for (const LightOutputs& statement : bindings_.statements(l)) {
             for (int output : statement.Cl)
-                for (size_t i = 0; output >= 0 && i < padded(at.count); ++i) {
-                    bool own = at.surface[std::min(i, at.count - 1)] == light.surface;
-                    float& Cl = out[size_t(output)][i];
-                    Cl = own || !light.has_area() ? 0.0f : Cl / float(light.samples);
-                }
+                if (output >= 0) take_share(light, at, out[size_t(output)]);
             make_record(making, statement, binding, out, true, &samples);
         }
     }

@@ -4,10 +4,10 @@
 
 #include <array>
 
+#include "runtime/picture/lights/light_samples.h"
 #include "runtime/picture/lights/unseen_light.h"
 #include "runtime/picture/shading/area_light.h"
 #include "runtime/picture/shading/kernel_runner.h"
-#include "runtime/picture/shading/light_samples.h"
 
 namespace kinora {
 
@@ -34,6 +34,8 @@ class LightRecords {
 
     // Of a grid: fewer where there are many lights, so that all their records stay in the cache.
     size_t most_points() const;
+    const LightBindings& bindings() const { return bindings_; }
+    const AreaLights& areas() const { return area_lights_; }
     // What every grid with lights needs for them.
     void want_columns(Grid& grid) const;
     // The records of a grid's own points, as its set 0. Grid::shadows casts their shadows.

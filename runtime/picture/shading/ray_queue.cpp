@@ -237,16 +237,26 @@ RayPlan RayQueue::plan(RayKind kind, Grid& grid, const Lanes& lanes,
 
 namespace {
 
+// Lamps that light the sender are not counted again by its rays of diffuse light.
+RayTag tag_of(const RayCall& call, int32_t label) {
+    const RayKindRow& row = row_of(call.kind);
+    RayTag tag = sent_tag(call.grid.ray, row, label);
+    const ShaderInstance* sender = call.grid.of_surface().look;
+    const bool diffuse = call.diffuse || row.type == RayType::Diffuse;
+    tag.counted = diffuse ? call.grid.frame.counted[sender->index] : 0;
+    return tag;
+}
+
 // Calls f with a part of the call for the rays of each label, and their tag.
 template <class F>
 void for_each_label(const RayCall& call, F&& f) {
     if (!call.plan.any()) return;
-    const RayKindRow& row = row_of(call.kind);
-    if (call.label < 0) return f(call, sent_tag(call.grid.ray, row, 0));
+    if (call.label < 0) return f(call, tag_of(call, 0));
     call.lanes.for_each_text(call.label, [&](const Lanes& alike) {
         const int32_t label = alike.integer(call.label, alike.first());
-        f(RayCall{call.kind, call.grid, alike, call.plan, call.rows, call.label, call.distances},
-          sent_tag(call.grid.ray, row, label));
+        f(RayCall{call.kind, call.grid, alike, call.plan, call.rows, call.label, call.distances,
+                  call.diffuse},
+          tag_of(call, label));
     });
 }
 

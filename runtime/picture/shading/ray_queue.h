@@ -51,6 +51,7 @@ struct RayCall {
     int rows = 0;            // of its arguments, which tell calls apart
     int label = -1;          // the row of the rays' label; below 0: they have none
     bool distances = false;  // rays that find what passes find the nearest surface, too
+    bool diffuse = false;    // they find light that a point gets from all around
 };
 
 // Adds the rays of samples, whose slots count up from `slot`; none for those that see nothing.

@@ -11,6 +11,7 @@
 #include "runtime/picture/shading/grid_host.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/imager.h"
+#include "runtime/picture/shading/lamps.h"
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
@@ -57,7 +58,8 @@ struct Shading::Objects {
     LightRecords lights{frame, kernels};
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
-    HitShader hits{frame, kernels, lights, transmission, volumes};
+    Lamps lamps{frame, kernels, lights};
+    HitShader hits{frame, kernels, lights, transmission, volumes, lamps};
     MapTables maps{*frame.resources.textures};
     RayServices rays{frame, hits.queue(), maps};
     GatherRays gathers{frame, hits, hits.queue(), maps};

@@ -59,6 +59,8 @@ struct ShadingFrame : EyeSpace {
     bool footprints = true;  // some shader reads those of hits
     bool any_transparent = false;
     bool lights_shoot = false;  // some light's kernel shoots rays
+    // Of each look: which lights on geometry light it, a number for each set; 0: none.
+    std::vector<uint32_t> counted = {};
     // Where rays that meet nothing end: the camera's far clip where its file has one, else the far
     // side of the scene: the eye's distance from the centre plus the diagonal.
     float far_distance = 0;

@@ -23,6 +23,7 @@ struct RayTag {
     RayType type = RayType::Camera;
     int32_t label = 0;                   // interned; of trace or gather
     uint32_t specular = 0, diffuse = 0;  // rays of each type on the way from the eye
+    uint32_t counted = 0;  // lamps whose light the sender gets from them: ShadingFrame::counted
 
     bool operator==(const RayTag&) const = default;
 };

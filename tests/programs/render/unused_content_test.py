@@ -198,14 +198,15 @@ class UnusedContent(ProgramTest):
         _, frames = self.counts(text)
         for before, after in zip(base, frames):
             for name, count in before.items():
-                self.assertLessEqual(abs(after[name] - count), count // 400, name)
+                self.assertLessEqual(abs(after[name] - count), count // 256, name)
 
     def test_meshes_that_others_hide(self):
         """Within a closed column."""
         self.expect_no_more(meshes_out_of_view(500, hidden=True), kernels=False)  # they have no material, which is one
 
     def test_meshes_out_of_view(self):
-        """They move the scene's bounds, and so the rounding of positions: a few rays at edges may differ."""
+        """They move the scene's bounds, and so the rounding of positions: a few rays at edges may differ, and those
+        that leave smooth surfaces are sent twice."""
         self.expect_nearly_the_same(meshes_out_of_view(500))
 
     def test_nodes_that_stand(self):

@@ -71,7 +71,7 @@ const MaterialDefinition& SurfaceInstances::default_material() {
     return default_material_;
 }
 
-// A light without a surface shader is seen in its colour.
+// A light without a surface shader: Lamps shows what it sends, or its colour where it is left out.
 std::vector<ShaderUse> SurfaceInstances::emitter(const MaterialDefinition& material) {
     ShaderUse use;
     use.shader = library_shader("area_emitter");

@@ -1,4 +1,4 @@
-// runtime/picture/shading/light_bindings.h: the outputs and parameters of lights, resolved once.
+// runtime/picture/lights/light_bindings.h: the outputs and parameters of lights, resolved once.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// runtime/picture/shading/light_samples.cpp: what kernels of lights with sample methods ask and
+// runtime/picture/lights/light_samples.cpp: what kernels of lights with sample methods ask and
 // answer.
-#include "runtime/picture/shading/light_samples.h"
+#include "runtime/picture/lights/light_samples.h"
 
 #include <algorithm>
 

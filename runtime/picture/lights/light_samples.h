@@ -1,4 +1,4 @@
-// runtime/picture/shading/light_samples.h: lights with sample methods: what their kernels are
+// runtime/picture/lights/light_samples.h: lights with sample methods: what their kernels are
 // asked, and the samples that they answer with.
 #pragma once
 

@@ -1,6 +1,6 @@
-// runtime/picture/shading/light_bindings.cpp: from the names in lights' and surfaces' shaders to
+// runtime/picture/lights/light_bindings.cpp: from the names in lights' and surfaces' shaders to
 // columns.
-#include "runtime/picture/shading/light_bindings.h"
+#include "runtime/picture/lights/light_bindings.h"
 
 #include <algorithm>
 #include <cmath>
