@@ -198,7 +198,7 @@ class UnusedContent(ProgramTest):
         _, frames = self.counts(text)
         for before, after in zip(base, frames):
             for name, count in before.items():
-                self.assertLessEqual(abs(after[name] - count), count // 256, name)
+                self.assertLessEqual(abs(after[name] - count), count // 160, name)
 
     def test_meshes_that_others_hide(self):
         """Within a closed column."""
