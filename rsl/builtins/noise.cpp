@@ -1,4 +1,6 @@
 // rsl/builtins/noise.cpp: noise and random numbers.
+#include <utility>
+
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
 #include "rsl/reference/reference_p.h"
@@ -115,12 +117,23 @@ void cellnoise(RefCall<Real>& c) {
     for (size_t k = 0; k < c.result.size(); ++k) c.result.c[k] = out[k];
 }
 
+// Two calls in a row are the numbers of one sample.
+template <class Real>
+void draw(RefCall<Real>& c) {
+    auto& drawn = c.eval.drawn;
+    const bool second = std::exchange(drawn.open, false) && drawn.path == c.eval.inlined.path &&
+                        drawn.turns == c.eval.loop_counters;
+    if (second) return c.set(Dual<Real>(Real(drawn.number)));
+    const std::vector<double> both = c.eval.service(Service::stratified, {0, 0, 0, 0});
+    drawn = {true, c.eval.inlined.path, c.eval.loop_counters, at(both, 1)};
+    set_from(c, both);
+}
+
 // The keys: the point, the call's site in the text, the functions it is inlined in, the turns of
 // the loops around it (docs/decisions.md#random-numbers-without-state).
 template <class Real>
 void random(RefCall<Real>& c) {
-    if (c.eval.inlined.stratifies && c.result.size() == 1)
-        return set_from(c, c.eval.service(Service::stratified, {0, 0, 0, 0}));
+    if (c.eval.inlined.stratifies && c.result.size() == 1) return draw(c);
     for (size_t k = 0; k < c.result.size(); ++k) {
         uint32_t site = (c.eval.inlined.path * 2654435761u) ^ (c.call.site * 40503u + uint32_t(k));
         std::vector<int32_t> keys = {

@@ -143,6 +143,13 @@ class Reference {
         uint32_t path = 0;
         bool stratifies = false;  // inside a sample method
     } inlined;
+    // The second number of a sample whose first was drawn: where, and in which turns of loops.
+    struct {
+        bool open = false;
+        uint32_t path = 0;
+        std::vector<int32_t> turns;
+        double number = 0;
+    } drawn;
 
     Item& global(Global id);
     // Notes a decision that rounding may turn, and gives it back.

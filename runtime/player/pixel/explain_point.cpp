@@ -97,6 +97,7 @@ class Explanation {
             return point.calls.answer(service, arguments);
         };
         if (!point.lights_at.empty()) inputs_.lights_at = &lights_at_;
+        inputs_.lights_of = &lights_of_;
         inputs_.spaces = &spaces_;
         inputs_.loop_budget = kLoopBudget;
         inputs_.statement_budget = kMostStatements;
@@ -232,6 +233,11 @@ class Explanation {
     rsl::ReferenceInputs inputs_;
     const rsl::ReferenceLightsAt lights_at_ = [this](std::array<double, 3> P) {
         return lights_near(P);
+    };
+    const rsl::ReferenceLightsOf lights_of_ =
+        [this](double set) -> std::span<const rsl::ReferenceLight> {
+        if (!(set >= 0 && set < double(point_.sampled.size()))) return {};
+        return point_.sampled[size_t(set)];
     };
     PointStory story_;
 };

@@ -145,6 +145,11 @@ void PointRecorder::note(Service service, const jit::ServiceCall& call) {
              point_lights(*host_, host_->grid().record_sets[size_t(noted.results[0])])});
         return;
     }
+    if (service == Service::samplinglights) {
+        const auto& set = host_->grid().record_sets[size_t(noted.results[0])];
+        noted.results[0] = double(point_->sampled.size());
+        point_->sampled.push_back(point_lights(*host_, set));
+    }
     if (service == Service::gather)
         noted.results = gathered(host_->grid(), noted.arguments, int32_t(noted.results[0]));
     point_->calls.add(std::move(noted));

@@ -20,6 +20,8 @@ struct RecordedPoint {
         std::vector<rsl::ReferenceLight> lights;
     };
     std::vector<LightsAt> lights_at;
+    // What lights with sample methods sent from the directions of each call of samplinglights.
+    std::vector<std::vector<rsl::ReferenceLight>> sampled = {};
 };
 
 // Sees the launches of the thread that makes it. At the camera's points (grids of one point) it

@@ -16,12 +16,18 @@ constexpr double kNear = 2e-3;
 bool shoots_rays(Service service) {
     return service == Service::trace || service == Service::transmission ||
            service == Service::occlusion || service == Service::indirectdiffuse ||
-           service == Service::gather;
+           service == Service::gather || service == Service::samplinglights;
 }
 
-// Arguments that the reference does not know: seeds, and the number of a gather.
+// Whether each call of the kernel answers one of the reference's.
+bool is_used_up(Service service) {
+    return shoots_rays(service) || service == Service::stratified;
+}
+
+// Arguments that the reference does not know: seeds, places in sequences, and the number of a
+// gather.
 bool is_open(Service service, const rsl::ServiceValue& value) {
-    return value.name == "seed" || value.name == "point" ||
+    return value.name == "seed" || service == Service::stratified || value.name == "point" ||
            (service == Service::gather && (value.name == "request" || value.name == "level"));
 }
 
@@ -62,7 +68,7 @@ std::vector<double> RecordedCalls::answer(Service service, std::span<const doubl
         if ((best || apart <= kNear) && (nearer || !best)) best = &call, best_distance = apart;
     }
     if (best) {
-        best->used = shoots_rays(service);
+        best->used = is_used_up(service);
         return best->results;
     }
     if (shoots_rays(service)) {

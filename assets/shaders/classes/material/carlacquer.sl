@@ -41,7 +41,7 @@ class carlacquer(color face = color(0.45, 0.02, 0.04); color edge = color(0.12, 
             vector half = normalize(towards + context->m_Vn);
             float lobe = pow(max(0, half . normalize(vector(context->m_Ns) + 0.5 * tilt)), 40);
             color below = base * cosine + (base + 0.35 * sparkle * flakes) * 2.5 * lobe * cosine;
-            samples[i]->setMaterialResponse(boundary->m_Kt * below, 0);
+            samples[i]->setMaterialResponse(boundary->m_Kt * below / PI, 0);
         }
     }
     public void generateSamples(string what; output __radiancesample samples[]) {
