@@ -143,8 +143,8 @@ template <class Real>
 auto Reference<Real>::left_by_layer(const ParamBinding& bound, BaseType type, size_t element)
     -> Item {
     if (bound.below > layer_index) return Item(type);
-    const auto left = left_.find({layer_index - bound.below, bound.variable});
-    if (left == left_.end() || element >= left->second.size()) return Item(type);
+    const auto left = left_.parameters.find({layer_index - bound.below, bound.variable});
+    if (left == left_.parameters.end() || element >= left->second.size()) return Item(type);
     return into_layer(convert(left->second[element], type));
 }
 

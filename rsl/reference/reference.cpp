@@ -391,12 +391,12 @@ void Reference<Real>::run_layer(const Layer& next) {
     }
     if (displacement || shader.kind == ShaderKind::Light) return;
     Vec<Real> Ci = vec(global(Global::Ci)), Oi = vec(global(Global::Oi));
-    for (size_t k = 0; k < 3 && have_surface_; ++k) {
+    for (size_t k = 0; k < 3 && left_.surface; ++k) {
         Number through = Number(1) - Oi[k];
-        Ci[k] = Ci[k] + through * Ci_[k];
-        Oi[k] = Oi[k] + through * Oi_[k];
+        Ci[k] = Ci[k] + through * left_.Ci[k];
+        Oi[k] = Oi[k] + through * left_.Oi[k];
     }
-    Ci_ = Ci, Oi_ = Oi, have_surface_ = true;
+    left_.Ci = Ci, left_.Oi = Oi, left_.surface = true;
 }
 
 // What layers above may be linked to. Other than outputs it is as all layers have it.
@@ -406,7 +406,7 @@ void Reference<Real>::leave_parameters(const Shader& shader) {
         Storage items = storage(*p.symbol);
         for (Item& item : items)
             if (!p.output && !p.type.is_array()) item = out_of_layer(item);
-        left_[{layer_index, std::string(p.name)}] = std::move(items);
+        left_.parameters[{layer_index, std::string(p.name)}] = std::move(items);
     }
 }
 
@@ -437,9 +437,9 @@ ReferenceResult Reference<Real>::run() {
         light_outputs();
         return result;
     }
-    if (have_surface_) {
-        output(global_key(Global::Ci), {BaseType::Color, Ci_[0], Ci_[1], Ci_[2]});
-        output(global_key(Global::Oi), {BaseType::Color, Oi_[0], Oi_[1], Oi_[2]});
+    if (left_.surface) {
+        output(global_key(Global::Ci), {BaseType::Color, left_.Ci[0], left_.Ci[1], left_.Ci[2]});
+        output(global_key(Global::Oi), {BaseType::Color, left_.Oi[0], left_.Oi[1], left_.Oi[2]});
     }
     if (last.kind == ShaderKind::Imager) output(global_key(Global::alpha), global(Global::alpha));
     output(global_key(Global::N), global(Global::N));

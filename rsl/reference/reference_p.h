@@ -297,8 +297,7 @@ class Reference {
     Item given_N_, given_P_;  // to the displacements
     void run_layer(const Layer& next);
     void leave_parameters(const Shader& shader);
-    std::map<std::pair<size_t, std::string>, Storage> left_;  // by layer and parameter
-    void output(const KernelKey& first, const Item& value);   // `first`: of its component 0
+    void output(const KernelKey& first, const Item& value);  // `first`: of its component 0
     void light_outputs();
 
     std::span<const Layer> layers_;
@@ -318,8 +317,13 @@ class Reference {
         Item spread{BaseType::Float};
     };
     std::vector<Source> sources_;
-    Vec<Real> Ci_{}, Oi_{};
-    bool have_surface_ = false;
+    // What the layers that have run left.
+    struct Left {
+        std::map<std::pair<size_t, std::string>, Storage> parameters;  // by layer and name
+        Vec<Real> Ci{}, Oi{};
+        bool surface = false;
+    };
+    Left left_;
     int gathers_ = 0;
     std::vector<const Symbol*> changed_;  // since the observer was told
     const Function* function_ = nullptr;  // that runs
