@@ -14,7 +14,6 @@ ROOT = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).
 FOLDERS = ("jit", "rsl", "collada", "anim", "skin", "raytrace", "runtime")
 MOST = (4, 40, 25)  # files, functions, fields
 LARGER = {
-    "rsl/reference/Reference": (0, 0, 26),
 }
 
 DEFINED = re.compile(
