@@ -41,6 +41,8 @@ SceneOptions scene_options(const SceneRequest& request) {
     if (!o.view.at) o.view.at_node = request.look_at;
     o.target = request.target;
     o.lights = request.lights;
+    o.indirect = request.gi;
+    o.quality.diffuse_depth = std::max(o.quality.diffuse_depth, request.gi);
     o.background_rebuilds = false;  // a frame depends on its time alone
     o.decode_textures = encoding_of(request) == ColorEncoding::Srgb;
     o.aovs = request.aovs;

@@ -37,6 +37,7 @@ struct SceneRequest {
     double filter_width = 0;
     uint32_t seed = 0;
     LightSet lights = LightSet::Auto;
+    uint32_t gi = 0;      // bounces of indirect light, whatever shaders ask for
     double exposure = 0;  // stops
     bool auto_exposure = false;
     std::optional<vec3> background;

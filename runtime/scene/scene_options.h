@@ -46,6 +46,7 @@ struct SceneOptions {
     Quality quality;                      // kernels are made for it, and frames obey it
     const jit::Target* target = nullptr;  // null: the best of this CPU
     LightSet lights = LightSet::Auto;
+    uint32_t indirect = 0;            // bounces of indirect light that every scene has
     bool background_rebuilds = true;  // of the ray tracer's trees; false: within a frame
     double low_limit = 3;             // raytrace::AccelPolicy::low_limit
     bool decode_textures = true;      // 8-bit colours from sRGB; false: --color legacy

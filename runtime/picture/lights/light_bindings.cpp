@@ -107,15 +107,23 @@ bool is_lit_by(const ShaderInstance& surface, const LightSource& light) {
            std::ranges::binary_search(*surface.lights, light.listed);
 }
 
-// What a surface reads of a light: its categories' bits, the outputs behind its messages.
+// Whether its own kernel asks for diffuse light that other surfaces reflect.
+bool gathers_indirect(const ShaderInstance& surface) {
+    return std::ranges::any_of(surface.full.kernel().services, [](const auto& service) {
+        return service.name == "indirectdiffuse";
+    });
+}
+
+// `indirect`: the light is what other surfaces reflect. What a surface reads of a light: its
+// categories' bits, the outputs behind its messages.
 LightBinding binding_of(const ShaderInstance& surface, const LightSource& source,
-                        const ShaderInstance& light) {
+                        const ShaderInstance& light, bool indirect) {
     LightBinding binding;
     std::string own = categories_of(light);
     for (size_t c = 0; c < surface.lowered.categories.size(); ++c)
         binding.categories |= int32_t(has_category(own, surface.lowered.categories[c])) << c;
     binding.seen = asks_for(surface.lowered, light.lowered, uint32_t(binding.categories)) &&
-                   is_lit_by(surface, source);
+                   is_lit_by(surface, source) && !(indirect && gathers_indirect(surface));
     binding.nondiffuse = number_of(light, "__nondiffuse");
     binding.nonspecular = number_of(light, "__nonspecular");
     const jit::Kernel& kernel = light.full.kernel();
@@ -208,7 +216,8 @@ LightBindings::LightBindings(const SceneResources& resources, const SceneLights&
         if (look->kind == ShaderInstanceKind::Light) continue;
         for (size_t l = 0; l < sources.lights.size(); ++l) {
             const LightSource& light = sources.lights[l];
-            row.push_back(binding_of(*look, light, *shaders.shader_instances[light.look]));
+            row.push_back(binding_of(*look, light, *shaders.shader_instances[light.look],
+                                     resources.description->lights[light.definition].indirect));
             row.back().light = int32_t(l);
         }
     }

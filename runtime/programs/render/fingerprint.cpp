@@ -87,8 +87,8 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
     text += fmt::format(" imager {} atmosphere {} aovs {} transparency {}", o.imager, o.atmosphere,
                         fmt::join(o.aovs, ","), int(o.transparency));
-    text += fmt::format(" lights {} hide {} only {} clip {}", int(o.lights), fmt::join(o.hide, ","),
-                        fmt::join(o.only, ","), o.clip);
+    text += fmt::format(" lights {} gi {} hide {} only {} clip {}", int(o.lights), o.gi,
+                        fmt::join(o.hide, ","), fmt::join(o.only, ","), o.clip);
     auto point = [](const std::optional<dvec3>& p) {
         return p ? fmt::format("{:a},{:a},{:a}", p->x, p->y, p->z) : "none";
     };

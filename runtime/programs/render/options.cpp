@@ -150,6 +150,9 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
          {"default", LightSet::Default},
          {"both", LightSet::Both}},
         "scene, default, both or auto (the scene's; default where these show nothing)");
+    app.add_option("--gi", o.gi,
+                   "bounces of indirect light in every scene, whatever its shaders ask for (0)")
+        ->check(CLI::Range(0, 64));
     app.add_option("--exposure", given.exposure,
                    "stops brighter (1 doubles) or darker, or auto: by the scene's whole range (0)");
     app.add_option("--background", given.background, "R,G,B instead of transparent");

@@ -8,6 +8,7 @@
 #include "runtime/scene/build/instances/instances.h"
 #include "runtime/scene/build/light_watts.h"
 #include "runtime/scene/description/findings.h"
+#include "runtime/scene/description/shader_library.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
@@ -116,8 +117,11 @@ bool add_default_lights(Scene& scene, Diagnostics& diagnostics) {
     return add_light_instances(scene, diagnostics);
 }
 
-void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
-                Diagnostics& diagnostics) {
+namespace {
+
+// The lights that shine from somewhere.
+void add_shining_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
+                        Diagnostics& diagnostics) {
     LightSet wanted = scene.options.lights;
     bool lit = false;
     if (wanted != LightSet::Default) {
@@ -139,6 +143,24 @@ void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
     uint32_t node = tree.add(carrier, scene.cameras[scene.start.camera].node);
     for (LightDefinition& light : lights)
         if (light.name != kGreyWorld) add_default_light(scene, std::move(light), node);
+}
+
+// After the lights of the scene, which it carries on. It stands nowhere, so any node will do.
+void add_indirect_light(Scene& scene) {
+    if (is_hidden(*scene.description, kIndirectLight)) return;
+    LightDefinition light;
+    light.id = light.name = kIndirectLight;
+    light.shader.shader = library_shader("indirectlight");
+    light.indirect = true;
+    add_default_light(scene, std::move(light), scene.cameras[scene.start.camera].node);
+}
+
+}  // namespace
+
+void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
+                Diagnostics& diagnostics) {
+    add_shining_lights(scene, tree, uses, diagnostics);
+    if (scene.options.indirect > 0) add_indirect_light(scene);
 }
 
 }  // namespace kinora

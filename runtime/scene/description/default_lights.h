@@ -8,6 +8,8 @@ inline constexpr const char* kKeyLight = "default key light";
 inline constexpr const char* kFillLight = "default fill light";
 inline constexpr const char* kRimLight = "default rim light";
 inline constexpr const char* kGreyWorld = "grey world";
+// What other surfaces reflect, where it is asked for (--gi).
+inline constexpr const char* kIndirectLight = "indirect light";
 // The node that carries the first three.
 inline constexpr const char* kDefaultLightNode = "default light";
 

@@ -231,6 +231,7 @@ struct LightDefinition {
     std::optional<bool> shadows;  // profile RSL's <shadows>; nothing: automatic
     bool ambient = false;
     bool blender = false;        // Blender wrote it, without the grey world that it lights with too
+    bool indirect = false;       // --gi's: not for surfaces that gather such light themselves
     bool blender_watts = false;  // one of COLLADA's that Blender wrote in watts
     uint32_t samples = 0;        // of a light on geometry; 0: not said
     Location where;

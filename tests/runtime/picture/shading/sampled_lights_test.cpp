@@ -390,6 +390,30 @@ class x(uniform string groups[] = {"key", "fill"}; uniform float which = 0;) {
     }
 }
 
+// ---- indirect light of every scene (--gi) -------------------------------------------------------
+
+// Within a closed box whose walls shine 1 and reflect a half: 1 + 1/2 + 1/4 + ..., a term a bounce.
+// A wall that gathers such light itself has it once.
+TEST(IndirectLight, FillsAClosedBoxByItsSeries) {
+    const char* const kWalls[] = {
+        "surface wall() { Oi = 1; Ci = 1 + 0.5 * diffuse(normalize(faceforward(N, I))); }",
+        "surface wall() { normal Nf = normalize(faceforward(N, I)); Oi = 1;"
+        " Ci = 1 + 0.5 * (diffuse(Nf) + indirectdiffuse(P, Nf, 1)); }"};
+    for (const char* wall : kWalls)
+        for (uint32_t bounces : {0u, 1u, 4u}) {
+            SceneText scene;
+            scene.cube("box", 20).look("wall", wall).place("box", "wall");
+            SceneOptions options;
+            options.lights = LightSet::Scene;
+            options.indirect = options.quality.diffuse_depth = bounces;
+            Rendering r(scene.text(), options);
+            EXPECT_EQ(r.findings(), "");
+            const double want = 2 - std::pow(0.5, bounces);
+            expect_colors(
+                r.frame(), [&](dvec2) { return dvec3(want); }, 1e-5);
+        }
+}
+
 TEST(SampledLights, WrongWordsAndNumbersAreErrors) {
     struct {
         const char* pair;

@@ -1,0 +1,12 @@
+/* indirectlight.sl: what other surfaces reflect, as a light: every shader that asks for diffuse light
+   has it, from the side that is seen. Its rays go on as often as --bounces says.
+   Parameters: intensity, lightcolor, samples (rays a point), maxdist (how far they see). */
+light indirectlight(float intensity = 1; color lightcolor = 1; float samples = 1; float maxdist = 1e30;
+                    output float __nonspecular = 1;) {
+    vector seen = 0;
+    rayinfo("direction", seen);
+    normal n = normalize(Ns);
+    if (n . seen > 0) n = -n;
+    illuminate(Ps + n)
+        Cl = intensity * lightcolor * indirectdiffuse(Ps, n, samples, "maxdist", maxdist);
+}
