@@ -171,10 +171,12 @@ void LightShader::illuminate(const Stmt& stmt, const Expr* position, const Expr*
         bool outer_solar = std::exchange(in_solar_, position == nullptr);
         tree_.statement(body);
         in_solar_ = outer_solar;
+        // The axis, unless the block sets L.
+        Lowered shines = globals_.read(Global::L);
+        if (shines.c == lowered(BaseType::Vector, sent).c) shines = lowered(BaseType::Vector, L);
         for (const Source& light : sources_) {
             if (light.stmt != &stmt) continue;
-            slots_.write(light.L,
-                         spreads ? lowered(BaseType::Vector, L) : globals_.read(Global::L));
+            slots_.write(light.L, shines);
             slots_.write(light.Cl, globals_.read(Global::Cl));
             slots_.write(light.Ol, globals_.read(Global::Ol));
             slots_.write(light.lit, lowered(BaseType::Bool, e_.running));

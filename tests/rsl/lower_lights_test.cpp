@@ -197,6 +197,8 @@ TEST(LowerLights, SolarTakesADirectionOfItsCone) {
     EXPECT_EQ(out["light:0:Cl.r"], (std::vector<float>{0, 0.6f}));
     EXPECT_EQ(out["light:0:Cl.b"], (std::vector<float>{-1, -0.8f}));
     EXPECT_EQ(out["light:0:L.z"], (std::vector<float>{1, 1}));  // the axis, from Ps
+    RunShader sets("light l() { solar(vector(0, 0, -2), 0.5) { L = vector(2, 0, 0); Cl = 1; } }");
+    EXPECT_EQ(sets.run(1)["light:0:L.x"], std::vector<float>{-2});
     RunShader plain("light l() { solar(vector(0, 0, -2), 0.5) Cl = 1; }");
     for (const jit::InputInfo& input : plain.kernels.point->inputs)
         EXPECT_FALSE(input.name.starts_with("light:")) << input.name;
