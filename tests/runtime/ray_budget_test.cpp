@@ -266,7 +266,8 @@ TEST(RayLimit, DoesNotCutACall) {
 // The inside of a box whose walls send 1 and half of what `light` says that they get: after b
 // bounces 1 + 1/2 + ... + 1/2^b is seen.
 struct Box {
-    Box(const std::string& light, uint32_t limit, uint32_t bounces, uint32_t depth = 16) {
+    // `behind`: samples of a call behind the first bounce, 0 all that are asked for.
+    Box(const std::string& light, uint32_t limit, uint32_t bounces, uint32_t behind = 0) {
         SceneText scene;
         add_box(scene,
                 "surface box() { Oi = 1; normal n = faceforward(normalize(N), I); Ci = 1 + " +
@@ -274,7 +275,7 @@ struct Box {
         SceneOptions options;
         options.quality.ray_limit = limit;
         options.quality.diffuse_depth = bounces;
-        options.quality.ray_depth = depth;
+        options.quality.samples_behind = behind;
         picture.emplace(scene.text(), options);
         picture->frame(64, 64);
     }
@@ -319,6 +320,7 @@ TEST(RayLimit, IsOfGatheredRaysOfAllDepths) {
     add_box(scene, gathered);
     SceneOptions options;
     options.quality.ray_depth = 2;
+    options.quality.samples_behind = 0;
     Rendering cut(scene.text(), options);
     cut.frame(16, 16);
     EXPECT_LE(double(cut.stats.rays) / 256, 1000);
@@ -329,6 +331,63 @@ TEST(RayLimit, IsOfGatheredRaysOfAllDepths) {
     whole.frame(16, 16);
     EXPECT_EQ(whole.stats.rays, 256u * (1 + 64 + 64 * 64));
     EXPECT_EQ(whole.findings(), "");
+}
+
+// Counts hold where the eye looks; behind the first bounce a path goes on with one ray.
+TEST(SamplesBehind, AreOneAPathUnlessMoreAreWanted) {
+    Box one("0.5 * indirectdiffuse(P, n, 16)", 1000, 4, 1);
+    EXPECT_EQ(one.rays(), 1 + 4 * 16);
+    EXPECT_NEAR(one.mean_color(), 1.9375, 1e-5);
+    EXPECT_EQ(one.picture->findings(), "");
+    Box four("0.5 * indirectdiffuse(P, n, 16)", 1000, 3, 4);
+    EXPECT_EQ(four.rays(), 1 + 16 + 16 * 4 + 16 * 4 * 4);
+    EXPECT_NEAR(four.mean_color(), 1.875, 1e-5);
+    // The largest divisor: 5 of 6 samples would not weigh alike.
+    Box divisor("0.5 * indirectdiffuse(P, n, 6)", 1000, 2, 5);
+    EXPECT_EQ(divisor.rays(), 1 + 6 + 6 * 3);
+}
+
+// A mirror shows what it sees with all samples; a ray of a cone does not.
+TEST(SamplesBehind, AreAllOfThemInAMirror) {
+    auto rays = [&](const std::string& cone) {
+        SceneText scene;
+        add_box(scene,
+                "surface box() { Oi = 1; normal n = faceforward(normalize(N), I);"
+                " float depth = 0; rayinfo(\"depth\", depth); Ci = depth == 0 ? trace(P, n" +
+                    cone + ") : color(occlusion(P, n, 8)); }");
+        Rendering r(scene.text());
+        r.frame(16, 16);
+        EXPECT_NEAR(mean(r.film).x, 1, 1e-5) << r.findings();
+        return double(r.stats.rays) / 256;
+    };
+    EXPECT_EQ(rays(""), 1 + 1 + 8);
+    EXPECT_EQ(rays(", \"samplecone\", 0.1, \"samples\", 4"), 1 + 4 + 4);
+}
+
+// The limit is of each ray of many; the eye's own and a mirror's have none.
+TEST(ClampIndirect, DimsWhatRaysOfManyBring) {
+    auto expect = [&](const std::string& light, double most, vec3 wanted) {
+        SceneText scene;
+        add_box(scene,
+                "surface box() { Oi = 1; normal n = faceforward(normalize(N), I); float depth = 0;"
+                " rayinfo(\"depth\", depth); color c = 0, all = 0; Ci = color(8, 4, 2);"
+                " if (depth == 0) {" +
+                    light + "} }");
+        SceneOptions options;
+        options.quality.clamp_indirect = most;
+        Rendering r(scene.text(), options);
+        r.frame(8, 8);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(r.color(4, 4)[k], wanted[k], 1e-5) << light << most << r.findings();
+    };
+    const char* gathered =
+        "gather(\"illuminance\", P, n, PI / 2, 4, \"surface:Ci\", c) all += c;"
+        " Ci = all / 4;";
+    expect("Ci = indirectdiffuse(P, n, 4);", 0, {8, 4, 2});
+    expect("Ci = indirectdiffuse(P, n, 4);", 2, {2, 1, 0.5});
+    expect(gathered, 2, {2, 1, 0.5});
+    expect("Ci = trace(P, n);", 2, {8, 4, 2});
+    expect("", 2, {8, 4, 2});
 }
 
 // Two calls a hit share what there is, and neither is left out.

@@ -342,6 +342,7 @@ TEST(IndirectDiffuse, OfManyBouncesEndsAndKeepsItsMean) {
     add_box(scene, half);
     SceneOptions options;
     options.quality.diffuse_depth = 8;
+    options.quality.samples_behind = 0;
     Rendering r(scene.text(), options);
     r.frame(32, 32);
     EXPECT_LT(r.stats.rays, 1024u * 1000u);  // --ray-limit

@@ -9,6 +9,7 @@
 #ifndef KINORA_INTEGRATORS_H
 #define KINORA_INTEGRATORS_H
 
+#include <samplelimit.h>
 #include <stdrsl/radiancesample.h>
 
 float integrate_listed(shader list[]; shader one;) {
@@ -27,12 +28,17 @@ float integrate_weight(float own; float other; float power;) {
 
 // The material's samples of a lobe, unless some are there.
 void integrate_choose(string what; float wanted; output __radiancesample samples[];) {
-    if (wanted != 0 && arraylength(samples) == 0) generateSamples(what, samples);
+    if (wanted != 0 && arraylength(samples) == 0) {
+        generateSamples(what, samples);
+        limit_samples(samples);
+    }
 }
 void integrate_choose_of(shader which; string what; float wanted;
                          output __radiancesample samples[];) {
-    if (wanted != 0 && arraylength(samples) == 0 && hasmethod(which, "generateSamples") == 1)
+    if (wanted != 0 && arraylength(samples) == 0 && hasmethod(which, "generateSamples") == 1) {
         which->generateSamples(what, samples);
+        limit_samples(samples);
+    }
 }
 
 // Results of light groups, none yet. An array of fixed length has as many as fit.
@@ -197,8 +203,10 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
 // The mean over the samples of response / pdf x traced light. A pdf or a direction of 0: no ray.
 #define KINORA_INDIRECT(NAME, FORMALS, OF)                                                     \
     color NAME(FORMALS color hints; float maxdist; output __radiancesample materialsamples[];) { \
-        if (arraylength(materialsamples) == 0)                                                 \
+        if (arraylength(materialsamples) == 0) {                                               \
             OF generateSamples("indirectspecular", materialsamples);                           \
+            limit_samples(materialsamples);                                                    \
+        }                                                                                      \
         color sum = 0;                                                                         \
         float i, count = arraylength(materialsamples);                                         \
         for (i = 0; i < count; i += 1) {                                                       \
@@ -206,7 +214,7 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
             float pdf = materialsamples[i]->materialPdf;                                       \
             if (pdf > 0 && towards . towards > 0)                                              \
                 sum += materialsamples[i]->materialResponse / pdf *                            \
-                       color trace(P, towards, "maxdist", maxdist);                            \
+                       color trace(P, towards, "maxdist", maxdist, "samples", count);          \
         }                                                                                      \
         return sum / max(1, count);                                                            \
     }

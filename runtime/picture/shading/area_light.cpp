@@ -19,7 +19,7 @@ namespace kinora {
 
 namespace {
 
-constexpr uint32_t kDefaultSamples = 16;
+constexpr uint32_t kUsualSamples = 16, kSamplesBesideIndirect = 2;
 
 // Uniform over a triangle: u, v of its corners 1 and 2 (P. Shirley and K. Chiu 1997: the square
 // folded by a root).
@@ -30,10 +30,11 @@ vec2 on_triangle(float x, float y) {
 
 }  // namespace
 
-uint32_t light_samples(const ShadingFrame& frame, size_t light) {
+uint32_t light_samples(const ShadingFrame& frame, size_t light, bool beside_indirect) {
     const LightSource& source = frame.lights.lights[light];
     const uint32_t own = frame.resources.description->lights[source.definition].samples;
-    return frame.quality.light_samples ? frame.quality.light_samples : own ? own : kDefaultSamples;
+    if (frame.quality.light_samples) return frame.quality.light_samples;
+    return own ? own : beside_indirect ? kSamplesBesideIndirect : kUsualSamples;
 }
 
 AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings) : frame_(frame) {
@@ -43,8 +44,7 @@ AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings)
         if (source.surface == kNone) continue;
         light = std::make_unique<AreaLight>();
         light->surface = source.surface;
-        if (!bindings.directed(l)) continue;
-        light->samples = light_samples(frame, l);
+        light->directed = bindings.directed(l);
     }
 }
 
@@ -75,7 +75,7 @@ void AreaLights::begin_frame() {
 }
 
 void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight& light,
-                        uint32_t sample, LightSamples& samples) const {
+                        SampleNumber sample, LightSamples& samples) const {
     lit.note_random();
     const std::vector<float>& below = light.below;
     uint32_t number = uint32_t(lit.look->index);  // tells lights on one surface apart
@@ -83,7 +83,7 @@ void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight&
         size_t point = std::min(i, at.count - 1);
         const raytrace::SampleSeries series =
             raytrace::series_of(at.series[point], raytrace::hash(number, frame_.seed));
-        vec2 u(raytrace::stratified_sample(series.part * light.samples + sample, series.seed));
+        vec2 u(raytrace::stratified_sample(series.part * sample.of + sample.number, series.seed));
         float wanted = u.x * below.back();
         size_t t = size_t(std::upper_bound(below.begin(), below.end(), wanted) - below.begin());
         t = std::min(t, below.size() - 1);

@@ -25,17 +25,24 @@ struct LightSamples {
     raytrace::Accel::SurfacePoints on_surface;
 };
 
+// One of the samples that a light has at a point.
+struct SampleNumber {
+    uint32_t number, of;
+};
+
 // A light on geometry: its triangles by area.
 struct AreaLight {
     uint32_t surface = kNone;
-    uint32_t samples = 1;
+    bool directed = false;     // else its light comes from no point of it
     std::vector<float> below;  // area of the triangles up to each, summed
     bool known = false;
     bool has_area() const { return !below.empty() && below.back() > 0; }
 };
 
-// Samples of lights that have an extent: of those on geometry and of solar with an angle.
-uint32_t light_samples(const ShadingFrame& frame, size_t light);
+// Samples of lights that have an extent: of those on geometry and of solar with an angle. Where
+// neither the option nor the file says how many, a surface with rays of indirect light takes fewer,
+// as these bring the more noise.
+uint32_t light_samples(const ShadingFrame& frame, size_t light, bool beside_indirect);
 
 class AreaLights {
   public:
@@ -44,8 +51,8 @@ class AreaLights {
     void begin_frame();
     // Light `light` among Scene::lights; null where it is none on geometry.
     const AreaLight* find(size_t light) const { return lights_[light].get(); }
-    // Sample `sample` of the light at each point; `lit` is the grid that its kernel runs on.
-    void choose(const Grid& lit, const LightPoints& at, const AreaLight& light, uint32_t sample,
+    // A sample of the light at each point; `lit` is the grid that its kernel runs on.
+    void choose(const Grid& lit, const LightPoints& at, const AreaLight& light, SampleNumber sample,
                 LightSamples& samples) const;
 
   private:

@@ -70,6 +70,15 @@ void copy_colors(std::span<const GatherResult> results, std::span<float* const> 
     }
 }
 
+// --clamp-indirect.
+void dim(const Quality& quality, const RayTag& tag, raytrace::ShadeResult& result, size_t count) {
+    if (!tag.scattered || quality.clamp_indirect == 0) return;
+    for (size_t i = 0; i < count; ++i) {
+        const vec3 color = dimmed(triple(result.Ci, i), quality.clamp_indirect);
+        for (int k = 0; k < 3; ++k) result.Ci[k][i] = color[k];
+    }
+}
+
 // What is known of a hit without its shader.
 void fill_geometry(std::span<const GatherResult> results, std::span<float* const> columns,
                    const raytrace::HitBatch& hits, const ShadingFrame& frame,
@@ -115,6 +124,8 @@ class GatherRays::Call {
   public:
     Call(GatherRays& all, Grid& grid, const Lanes& lanes, const RayPlan& plan,
          std::span<const GatherResult> results, GatherRecords& records);
+    // Lanes whose rays go in many directions.
+    uint32_t scattered() const;
     // Marks the records that a lane has no sample for.
     void mark_absent(int most);
     // Where a lane sent fewer rays than it has samples, these share them: sums and means over the
@@ -188,7 +199,13 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
     Call own(*this, grid, lanes, plan, results, records);
     own.mark_absent(most);
     queue_.send(
-        {RayKind::Gather, grid, lanes, plan, 0, Row::Label, false, is_diffuse(lanes)},
+        {.kind = RayKind::Gather,
+         .grid = grid,
+         .lanes = lanes,
+         .plan = plan,
+         .label = Row::Label,
+         .diffuse = is_diffuse(lanes),
+         .scattered = own.scattered()},
         [&](raytrace::RayBatch& rays, const SampleSpan& samples, uint32_t slot) {
             own.add(rays, samples, slot);
         },
@@ -214,6 +231,13 @@ GatherRays::Call::Call(GatherRays& all, Grid& grid, const Lanes& lanes, const Ra
           of_ray_, [](const RayColumn& c) { return c.fact == RayFact::SolidAngle; })),
       made_(grid, lanes, Row::P, Row::D, (flags_of(lanes) & rsl::kGatherCosine) != 0) {
     set_lanes();
+}
+
+uint32_t GatherRays::Call::scattered() const {
+    uint32_t lanes = 0;
+    for (int lane = 0; lane < jit::kMaxLanes; ++lane)
+        lanes |= uint32_t(lanes_.asks(lane) && lanes_.number(Row::Angle, lane) > 0) << lane;
+    return lanes;
 }
 
 void GatherRays::Call::mark_absent(int most) {
@@ -322,6 +346,7 @@ std::span<float*> GatherRays::Call::columns_of(const raytrace::HitBatch& hits, c
         raytrace::ShadeResult result = take_colors(arena, hits.count);
         HitOutputs outputs{results_, columns};
         all_.hits_.shade(hits, tag, grid_.memory, result, &outputs);
+        dim(all_.frame_.quality, tag, result, hits.count);
         copy_colors(results_, columns, result, hits.count);
     }
     fill_geometry(results_, columns, hits, all_.frame_, grid_.memory);

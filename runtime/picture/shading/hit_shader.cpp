@@ -77,7 +77,7 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
     Arena::Mark part = arena.mark();
     RayNotes notes(queue_, hits.depth + 1, memory);
     auto shade_lit = [&] {
-        shadows.finish();
+        light_grids(lit.first(grids), shadows, notes);
         note_rays(lit.first(grids), notes);
         for (Grid* grid : lit.first(grids)) {
             notes.answer(*grid);
@@ -95,7 +95,7 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
         for (size_t at = 0, n; at < run.hits.size(); at += n) {
             n = std::min(most, run.hits.size() - at);
             if (points + n > most) shade_lit();
-            lit[grids++] = &light_grid(call, run, run.hits.subspan(at, n), shadows);
+            lit[grids++] = &make_grid(call, run, run.hits.subspan(at, n));
             points += n;
         }
         if (costs) shade_lit();
@@ -157,37 +157,60 @@ void HitShader::count_dark(const Grid& grid, const raytrace::ShadeResult& result
     if (count > 0) counters.dark += drop_lit(grid, dark.first(count));
 }
 
-// The rays of all grids together, where there is more than one lane group of them.
-void HitShader::note_rays(std::span<Grid* const> grids, RayNotes& notes) {
+namespace {
+
+// Rays of grids that send some, noted together where there is more than one lane group of them.
+void note_together(std::span<Grid* const> grids, FunctionRef<bool(const Grid&)> sends,
+                   RayNotes& notes, FunctionRef<void(Grid&)> note) {
     size_t points = 0;
     for (const Grid* grid : grids)
-        if (sends_noted_rays(*grid)) points += grid->count();
-    if (points <= jit::kMaxLanes || frame_.stopped()) return;
+        if (sends(*grid)) points += grid->count();
+    if (points <= jit::kMaxLanes) return;
     notes.start();
-    for (Grid* grid : grids) {
-        if (!sends_noted_rays(*grid)) continue;
-        grid->notes = &notes;
-        kernels_.run_noting(*grid);
-    }
+    for (Grid* grid : grids)
+        if (sends(*grid)) note(*grid);
     notes.finish();
 }
 
-// A grid in the arena with all that its kernel reads; its shadows are cast at the queue's end.
-Grid& HitShader::light_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points,
-                            LightShadows& shadows) {
+}  // namespace
+
+// The lights of all grids, whose rays go together: first those that their kernels send.
+void HitShader::light_grids(std::span<Grid* const> grids, LampRays& shadows, RayNotes& notes) {
+    for (Grid* grid : grids) grid->shadows = &shadows;
+    auto sends = [&](const Grid& grid) { return lights_.sends_noted_rays(grid); };
+    if (!frame_.stopped())
+        note_together(grids, sends, notes, [&](Grid& grid) { lights_.note_rays(grid, notes); });
+    for (Grid* grid : grids) {
+        if (grid->look->lowered.uses_lights) lights_.run(*grid);
+        grid->notes = nullptr;
+        grid->shadows = &shadows_;
+    }
+    notes.reset();
+    shadows.finish();
+}
+
+void HitShader::note_rays(std::span<Grid* const> grids, RayNotes& notes) {
+    auto sends = [](const Grid& grid) { return sends_noted_rays(*grid.look, grid); };
+    if (frame_.stopped()) return;
+    note_together(grids, sends, notes, [&](Grid& grid) {
+        grid.notes = &notes;
+        kernels_.run_noting(grid, [&] { kernels_.run_in_the_dark(grid); });
+    });
+}
+
+// A grid in the arena with all that its kernel and its lights read.
+Grid& HitShader::make_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points) {
     const ShaderInstance& look = *run.look;
     void* at = call.memory.arena.allocate(sizeof(Grid));
     Grid& grid = *new (at) Grid(frame_, call.memory, call.hits, points, &look);
     kernels_.prepare(grid, call.ray);
     grid.ascending = run.ascending;
     grid.dense = run.ascending && points.back() - points.front() == points.size() - 1;
-    grid.shadows = &shadows;
     grid.goes_on = call.result.passages;
     want_columns(grid, look.full.columns);
     if (look.lowered.uses_lights) lights_.want_columns(grid);
     gather(grid);
-    if (look.lowered.uses_lights) lights_.run(grid);
-    grid.shadows = &shadows_;
+    if (look.lowered.uses_lights) lights_.find_points(grid);
     return grid;
 }
 

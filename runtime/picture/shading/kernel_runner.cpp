@@ -144,10 +144,10 @@ std::span<float*> KernelRunner::run_in_the_dark(Grid& grid) const {
     return out;
 }
 
-void KernelRunner::run_noting(Grid& grid) const {
+void KernelRunner::run_noting(Grid& grid, FunctionRef<void()> run) const {
     const size_t ended = count_points(grid, &PointRays::ended),
                  thinned = count_points(grid, &PointRays::thinned);
-    run_in_the_dark(grid);
+    run();
     grid.memory.counters.out_of_rays -= count_points(grid, &PointRays::ended) - ended;
     grid.memory.counters.thinned -= count_points(grid, &PointRays::thinned) - thinned;
     start_accounts(grid);

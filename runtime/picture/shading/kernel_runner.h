@@ -7,6 +7,7 @@
 
 #include "rsl/model/globals.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/base/parallel.h"
 #include "runtime/picture/shading/grid.h"
 #include "runtime/picture/shading/shading_frame.h"
 
@@ -29,8 +30,9 @@ class KernelRunner {
     void prepare(Grid& grid, const RayTag& ray) const;
     // The accounts of the grid's points as they are before its kernel runs.
     void start_accounts(Grid& grid) const;
-    // Runs the look's kernel for what its calls of services note; accounts and outputs are lost.
-    void run_noting(Grid& grid) const;
+    // `run` runs kernels at the grid's points for what their calls of services note. Of the
+    // accounts nothing stays.
+    void run_noting(Grid& grid, FunctionRef<void()> run) const;
     // What the look's kernel gives without lights and rays; it prints and bakes nothing.
     std::span<float*> run_in_the_dark(Grid& grid) const;
     // Runs a kernel of the grid's look; its output rows, from the thread's arena.

@@ -13,6 +13,7 @@
 #include "runtime/picture/columns/sixteen_points.h"
 #include "runtime/picture/lights/cone_samples.h"
 #include "runtime/picture/shading/grid_host.h"
+#include "runtime/picture/shading/ray_queue.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/kernels/columns.h"
 
@@ -101,19 +102,29 @@ LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     for (size_t l = 0; l < frame.lights.lights.size(); ++l) {
         every_.push_back(l);
         for (const LightOutputs& statement : bindings_.statements(l)) {
-            record_count_ += samples_of(l, statement);
+            record_count_ += asked_samples(l, statement, false);
             draws_samples_ |= statement.spread >= 0;
             draws_samples_ |= statement.sampled;
             if (statement.sampled) sampling_.push_back(l);
         }
         draws_samples_ |= area_lights_.find(l) != nullptr;
         need_rng_ |= look_of_light(frame, l).lowered.uses_rng;
+        if (shoots_rays(look_of_light(frame, l)) && !area_lights_.find(l)) sending_.push_back(l);
+        sends_indirect_ |= calls_service(look_of_light(frame, l).full, RayKind::Indirect);
     }
 }
 
-size_t LightRecords::samples_of(size_t light, const LightOutputs& statement) const {
-    if (const AreaLight* area = area_lights_.find(light)) return area->samples;
-    return statement.spread >= 0 ? light_samples(frame_, light) : 1;
+size_t LightRecords::asked_samples(size_t light, const LightOutputs& statement,
+                                   bool beside_indirect) const {
+    const AreaLight* area = area_lights_.find(light);
+    const bool wide = area ? area->directed : statement.spread >= 0;
+    return wide ? light_samples(frame_, light, beside_indirect) : 1;
+}
+
+size_t LightRecords::samples_of(size_t light, const LightOutputs& statement,
+                                const Grid& grid) const {
+    const bool indirect = sends_indirect_ || calls_service(grid.look->full, RayKind::Indirect);
+    return size_t(samples_at(grid.ray, int(asked_samples(light, statement, indirect))));
 }
 
 void LightRecords::begin_frame(bool all) {
@@ -181,9 +192,10 @@ void of_points(const Grid& grid, std::span<const float** const> columns, const u
 
 }  // namespace
 
-void LightRecords::run(Grid& grid) {
+void LightRecords::find_points(Grid& grid) {
     StageScope stage(Stage::Lights);
-    LightPoints at;
+    LightPoints& at = *grid.memory.arena.allocate_span<LightPoints>(1).data();
+    at = {};
     at.count = grid.count();
     for (size_t k = 0; k < 3; ++k) {
         at.P[k] = grid.columns[kColP + k];
@@ -212,26 +224,55 @@ void LightRecords::run(Grid& grid) {
         at.series = series.data();
     }
     at.own = true;
-    grid.record_sets[0] = make_records(grid, at);
-    if (sampling_.empty()) return;
-    grid.lit_points = grid.memory.arena.allocate_span<LightPoints>(1).data();
-    *const_cast<LightPoints*>(grid.lit_points) = at;
-}
-
-jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
-    Arena& arena = grid.memory.arena;
-    std::span<float> zeros = arena.allocate_span<float>(padded(at.count));
+    std::span<float> zeros = grid.memory.arena.allocate_span<float>(padded(at.count));
     std::fill(zeros.begin(), zeros.end(), 0.0f);
     at.zeros = zeros.data();
+    grid.lit_points = &at;
+}
+
+void LightRecords::run(Grid& grid) {
+    StageScope stage(Stage::Lights);
+    if (!grid.lit_points) find_points(grid);
+    grid.record_sets[0] = make_records(grid, *grid.lit_points);
+}
+
+bool LightRecords::sends_noted_rays(const Grid& grid) const {
+    return grid.look->lowered.uses_lights && std::ranges::any_of(sending_, [&](size_t l) {
+               return kinora::sends_noted_rays(look_of_light(frame_, l), grid);
+           });
+}
+
+void LightRecords::note_rays(Grid& grid, RayNotes& notes) {
+    StageScope stage(Stage::Lights);
+    grid.notes = &notes;
+    const LightPoints& at = *grid.lit_points;
+    const Sphere lit = sphere_about(at.P, at.count);
+    const Making making{grid, at, {}, {}};
+    kernels_.run_noting(grid, [&] {
+        for (size_t l : sending_) {
+            if (is_dark(grid, l, lit)) continue;
+            LitGrid of_light(frame_, making, l);
+            prepare(making, l, of_light, nullptr);
+            kernels_.run_in_the_dark(of_light);
+        }
+    });
+}
+
+bool LightRecords::is_dark(const Grid& grid, size_t l, const Sphere& points) const {
+    const uint32_t only = frame_.insight.only_light;
+    const bool seen = bindings_.binding(grid.look->index, l).seen;
+    return (only != kNone && l != only) || !seen || !reaches(reaches_[l], points);
+}
+
+jit::RecordSet LightRecords::make_records(Grid& grid, const LightPoints& at) {
+    Arena& arena = grid.memory.arena;
     Making making{grid, at, arena.allocate_span<jit::Record>(record_count_),
                   arena.allocate_span<SentLight>(record_count_)};
     const Sphere lit = sphere_about(at.P, at.count);
     // At other points, and within volumes, handles count all lights.
     const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
     for (size_t l : leaves_out ? present_ : every_) {
-        const bool seen = bindings_.binding(grid.look->index, l).seen;
-        const uint32_t only = frame_.insight.only_light;
-        const bool dark = (only != kNone && l != only) || !seen || !reaches(reaches_[l], lit);
+        const bool dark = is_dark(grid, l, lit);
         if (dark && leaves_out) continue;
         making.light_begin = making.record_count;
         if (dark)
@@ -246,7 +287,8 @@ jit::RecordSet LightRecords::make_records(Grid& grid, LightPoints at) {
 void LightRecords::dark_records(Making& making, size_t l) const {
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))
-        dark_records(making, statement, binding, making.record_count + samples_of(l, statement));
+        dark_records(making, statement, binding,
+                     making.record_count + samples_of(l, statement, making.grid));
 }
 
 void LightRecords::dark_records(Making& making, const LightOutputs& statement,
@@ -292,8 +334,7 @@ LightRecords::LitGrid::LitGrid(const ShadingFrame& frame, const Making& making, 
            making.grid.points.subspan(making.at.first, making.at.count),
            &look_of_light(frame, light)) {}
 
-std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, Grid& lit,
-                                           LightAnswer* answer) {
+void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswer* answer) const {
     Grid& grid = making.grid;
     const LightPoints& at = making.at;
     const ShaderInstance& look = *lit.look;
@@ -307,6 +348,7 @@ std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, Grid&
     lit.lit = &grid;
     lit.lit_first = at.first;
     lit.rays = accounts(making);
+    if (at.own) lit.notes = grid.notes;
     lit.record_sets = grid.record_sets;
     if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
         lit.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
@@ -314,8 +356,14 @@ std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, Grid&
     }
     lit.columns = light_columns(look, frame_.pose, frame_.lights.lights[l], at, arena);
     if (look.lowered.draws_random) lit.note_random();
-    grid.memory.counters.light_points += at.count;
-    return kernels_.run(look.full, lit);
+}
+
+std::span<float*> LightRecords::run_kernel(const Making& making, size_t l, Grid& lit,
+                                           LightAnswer* answer) {
+    prepare(making, l, lit, answer);
+    if (lit.notes) lit.notes->answer(lit);
+    making.grid.memory.counters.light_points += making.at.count;
+    return kernels_.run(lit.look->full, lit);
 }
 
 void LightRecords::make_records(Making& making, size_t l) {
@@ -360,7 +408,8 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     const LightPoints& at = making.at;
     Arena& arena = making.grid.memory.arena;
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
-    const size_t samples = samples_of(l, statement), end = making.record_count + samples;
+    const size_t samples = samples_of(l, statement, making.grid),
+                 end = making.record_count + samples;
     const float* angle = out[size_t(statement.spread)];
     const bool wide =
         statement.L[0] >= 0 && std::any_of(angle, angle + at.count, [](float a) { return a != 0; });
@@ -396,10 +445,10 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
 }
 
 // Of a light on geometry, whose samples share its light; its own surface has none of it.
-static void take_share(const AreaLight& light, const LightPoints& at, float* Cl) {
+static void take_share(const AreaLight& light, uint32_t samples, const LightPoints& at, float* Cl) {
     for (size_t i = 0; i < padded(at.count); ++i) {
         const bool own = at.surface[std::min(i, at.count - 1)] == light.surface;
-        Cl[i] = own || !light.has_area() ? 0.0f : Cl[i] / float(light.samples);
+        Cl[i] = own || !light.has_area() ? 0.0f : Cl[i] / float(samples);
     }
 }
 
@@ -434,8 +483,9 @@ void LightRecords::area_records(Making& making, size_t l) {
     std::span<float*> mesh = arena.allocate_span<float*>(lit.columns.size());
     std::copy(lit.columns.begin(), lit.columns.end(), mesh.begin());
     const LightBinding& binding = bindings_.binding(grid.look->index, l);
-    for (uint32_t k = 0; k < light.samples; ++k) {
-        area_lights_.choose(lit, at, light, k, samples);
+    const uint32_t count = uint32_t(samples_of(l, bindings_.statements(l)[0], grid));
+    for (uint32_t k = 0; k < count; ++k) {
+        area_lights_.choose(lit, at, light, {k, count}, samples);
         std::copy(mesh.begin(), mesh.end(), lit.columns.begin());
         gather(lit);
         for (uint16_t column : look.full.columns)
@@ -444,7 +494,7 @@ void LightRecords::area_records(Making& making, size_t l) {
         grid.memory.counters.light_points += at.count;
         for (const LightOutputs& statement : bindings_.statements(l)) {
             for (int output : statement.Cl)
-                if (output >= 0) take_share(light, at, out[size_t(output)]);
+                if (output >= 0) take_share(light, count, at, out[size_t(output)]);
             make_record(making, statement, binding, out, true, &samples);
         }
     }
@@ -556,11 +606,8 @@ int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
 int32_t LightRecords::along(Grid& grid, const jit::ServiceCall& call) {
     const uint32_t handle = next_handle(grid, call.first);
     const bool own = grid.lit_points && asks_at(*grid.lit_points, call);
-    LightPoints at = own ? part_of(*grid.lit_points, call) : points_of(grid, call);
+    const LightPoints at = own ? part_of(*grid.lit_points, call) : points_of(grid, call);
     Arena& arena = grid.memory.arena;
-    std::span<float> zeros = arena.allocate_span<float>(padded(at.count));
-    std::fill(zeros.begin(), zeros.end(), 0.0f);
-    at.zeros = zeros.data();
     Making making{grid, at, arena.allocate_span<jit::Record>(sampling_.size()),
                   arena.allocate_span<SentLight>(1)};
     const Sphere lit = sphere_about(at.P, at.count);

@@ -38,7 +38,13 @@ class LightRecords {
     const AreaLights& areas() const { return area_lights_; }
     // What every grid with lights needs for them.
     void want_columns(Grid& grid) const;
-    // The records of a grid's own points, as its set 0. Grid::shadows casts their shadows.
+    // Finds Grid::lit_points, the grid's own points.
+    void find_points(Grid& grid);
+    // Whether rays of some light wait for those of other grids.
+    bool sends_noted_rays(const Grid& grid) const;
+    // Runs such lights at the points; from then on their kernels get what the rays see.
+    void note_rays(Grid& grid, RayNotes& notes);
+    // The records of these points, as set 0. Grid::shadows casts their shadows.
     void run(Grid& grid);
     // The service `lights`: records at other points than the grid's own; their handle.
     int32_t at(Grid& grid, const jit::ServiceCall& call);
@@ -55,14 +61,17 @@ class LightRecords {
         size_t record_count = 0, sent_count = 0;
         size_t light_begin = 0;  // the first record of the light
     };
-    jit::RecordSet make_records(Grid& grid, LightPoints at);
+    jit::RecordSet make_records(Grid& grid, const LightPoints& at);
+    // Whether nothing of the light arrives at points of a grid, which are within the sphere.
+    bool is_dark(const Grid& grid, size_t light, const Sphere& points) const;
     void make_records(Making& making, size_t light);
     void find_present();
     static std::span<PointRays> accounts(const Making& making);
-    // Run a light's kernel.
+    // All that a light's kernel reads, and its run.
     struct LitGrid : Grid {  // the lit points, for the light's kernel
         LitGrid(const ShadingFrame& frame, const Making& making, size_t light);
     };
+    void prepare(const Making& making, size_t light, Grid& lit, LightAnswer* answer) const;
     std::span<float*> run_kernel(const Making& making, size_t light, Grid& lit,
                                  LightAnswer* answer);
     void plain_records(Making& making, size_t light);
@@ -88,8 +97,9 @@ class LightRecords {
     // the block reads L, the kernel of `lit` runs again for each.
     void cone_records(Making& making, size_t light, const LightOutputs& statement, Grid& lit,
                       std::span<float* const> out) const;
-    // The most that a statement of the light makes at a time.
-    size_t samples_of(size_t light, const LightOutputs& statement) const;
+    // Records of a statement of the light: where the grid has no part in it, and for its points.
+    size_t asked_samples(size_t light, const LightOutputs& statement, bool beside_indirect) const;
+    size_t samples_of(size_t light, const LightOutputs& statement, const Grid& grid) const;
     // Of a light that reaches none of the points.
     void dark_records(Making& making, size_t light) const;
     // Up to record `end`.
@@ -110,11 +120,13 @@ class LightRecords {
     std::vector<size_t> every_;        // light
     std::vector<size_t> present_;      // those whose light may reach some surface in this frame
     std::vector<size_t> sampling_;     // those with sample methods
+    std::vector<size_t> sending_;      // those whose kernels send rays
     bool all_ = false;
-    size_t record_count_ = 0;     // of one run
-    bool need_rng_ = false;       // some light's kernel does
-    bool draws_samples_ = false;  // for some light
-    float far_ = 0;               // beyond all that may stand before an endless light
+    size_t record_count_ = 0;      // of one run
+    bool need_rng_ = false;        // some light's kernel does
+    bool draws_samples_ = false;   // for some light
+    bool sends_indirect_ = false;  // some light's kernel gathers indirect light
+    float far_ = 0;                // beyond all that may stand before an endless light
 };
 
 }  // namespace kinora

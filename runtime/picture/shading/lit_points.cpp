@@ -58,6 +58,9 @@ LightPoints points_of(const Grid& grid, const jit::ServiceCall& call) {
     at.rng = rows[12];
     at.series = series;
     at.surface = surface;
+    float* const zeros = lane_row<float>(arena);
+    std::fill_n(zeros, jit::kMaxLanes, 0.0f);
+    at.zeros = zeros;
     for (size_t k = 0; k < 3; ++k) {
         at.P[k] = rows[k];
         at.accel[k] = rows[3 + k];

@@ -222,8 +222,9 @@ RayPlan RayQueue::plan(RayKind kind, Grid& grid, const Lanes& lanes,
     RayPlan plan;
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
         if (!lanes.asks(lane)) continue;
-        const RayWish wish = wish_of(lane);
+        RayWish wish = wish_of(lane);
         if (wish.samples == 0) continue;
+        wish.samples = samples_at(grid.ray, wish.samples);
         const LanePlan own = plan_lane(row, leave, grid, lanes.point(lane), wish);
         plan.count[lane] = waits ? 0 : own.count;
         plan.share[lane] = own.share;
@@ -244,19 +245,39 @@ RayTag tag_of(const RayCall& call, int32_t label) {
     const ShaderInstance* sender = call.grid.of_surface().look;
     const bool diffuse = call.diffuse || row.type == RayType::Diffuse;
     tag.counted = diffuse ? call.grid.frame.counted[sender->index] : 0;
+    if (call.scattered & call.lanes.mask()) {
+        tag.scattered = true;
+        tag.most_samples = call.grid.frame.quality.samples_behind;
+    }
     return tag;
 }
 
-// Calls f with a part of the call for the rays of each label, and their tag.
+RayCall part_of(const RayCall& call, const Lanes& lanes) {
+    return {call.kind,  call.grid,      lanes,        call.plan,     call.rows,
+            call.label, call.distances, call.diffuse, call.scattered};
+}
+
+// Calls f with a part of the call for rays that are scattered, and one for those that are not.
 template <class F>
-void for_each_label(const RayCall& call, F&& f) {
+void for_each_importance(const RayCall& call, F&& f) {
+    const uint32_t all = call.lanes.mask();
+    for (uint32_t lanes : {all & call.scattered, all & ~call.scattered})
+        if (lanes == all)
+            f(call);
+        else if (lanes)
+            f(part_of(call, Lanes(call.lanes, lanes)));
+}
+
+// Calls f with a part of the call for rays of each tag.
+template <class F>
+void for_each_tag(const RayCall& call, F&& f) {
     if (!call.plan.any()) return;
-    if (call.label < 0) return f(call, tag_of(call, 0));
-    call.lanes.for_each_text(call.label, [&](const Lanes& alike) {
-        const int32_t label = alike.integer(call.label, alike.first());
-        f(RayCall{call.kind, call.grid, alike, call.plan, call.rows, call.label, call.distances,
-                  call.diffuse},
-          tag_of(call, label));
+    for_each_importance(call, [&](const RayCall& alike) {
+        if (call.label < 0) return f(alike, tag_of(alike, 0));
+        alike.lanes.for_each_text(call.label, [&](const Lanes& lanes) {
+            const RayCall part = part_of(alike, lanes);
+            f(part, tag_of(part, lanes.integer(call.label, lanes.first())));
+        });
     });
 }
 
@@ -274,7 +295,7 @@ void for_each_part(const RayCall& call, F&& f) {
 }  // namespace
 
 void RayQueue::send(const RayCall& call, const AddSamples& add, const SumSamples& sum) {
-    for_each_label(
+    for_each_tag(
         call, [&](const RayCall& alike, const RayTag& tag) { send_alike(alike, tag, add, sum); });
 }
 
@@ -302,7 +323,7 @@ void RayQueue::send_alike(const RayCall& call, const RayTag& tag, const AddSampl
             add(rays, samples, 0);
             set_kind(rays, 0, call.kind);
             if (row.finds == RayFinds::Color)
-                see(rays, grid.depth + 1, tag, grid.memory, seen);
+                see(rays, grid.depth + 1, tag, grid.memory, seen.first(samples.size()));
             else
                 pass(rays, tag, grid.memory, call.distances, seen);
             sum(samples, seen.first(samples.size()));
@@ -317,7 +338,7 @@ void RayQueue::send(const RayCall& call, const AddSamples& add, const MeetSample
     NestedWavefront batch(memory);
     raytrace::RayBatch& rays = batch->rays;
     rays.reserve(kGridPoints);
-    for_each_label(call, [&](const RayCall& alike, const RayTag& tag) {
+    for_each_tag(call, [&](const RayCall& alike, const RayTag& tag) {
         for_each_part(alike, [&](const SampleSpan& samples) {
             rays.count = 0;
             add(rays, samples, 0);
@@ -354,6 +375,11 @@ void RayQueue::see_beyond(const raytrace::RayBatch& rays, const raytrace::HitBat
     memory.arena.release(mark);
 }
 
+void RayQueue::dim(const RayTag& tag, std::span<SeenByRay> seen) const {
+    if (!tag.scattered || frame_.quality.clamp_indirect == 0) return;
+    for (SeenByRay& ray : seen) ray.color = dimmed(ray.color, frame_.quality.clamp_indirect);
+}
+
 void RayQueue::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
                    ThreadMemory& memory, std::span<SeenByRay> seen) {
     for (size_t r = 0; r < rays.count; ++r) seen[rays.slot[r]] = {};
@@ -375,6 +401,7 @@ void RayQueue::see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag,
         see_layer(rays, hits, tag, memory, seen);
     }
     rays.passing = false;
+    dim(tag, seen);
     memory.arena.release(mark);
 }
 
@@ -436,8 +463,9 @@ void RayQueue::pass(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& m
 // ---- notes --------------------------------------------------------------------------------------
 
 struct RayNotes::Note {
-    const Grid* grid;
-    int32_t first;  // lane of the call
+    const PicturePoints* points;  // of the surface
+    const ShaderInstance* look;   // its own or a light's
+    int32_t first;                // lane of the call
     uint32_t mask;
     int rows;
     const float* args;  // [row][lane]
@@ -458,8 +486,12 @@ void RayNotes::finish() {
     open_ = false;
 }
 
+bool RayNotes::is_of(const Note* note, const Grid& grid) {
+    return note && note->points == &grid.of_surface() && note->look == grid.look;
+}
+
 void RayNotes::answer(const Grid& grid) {
-    for (next_ = first_; next_ && next_->grid != &grid;) next_ = next_->next;
+    for (next_ = first_; next_ && !is_of(next_, grid);) next_ = next_->next;
 }
 
 void RayNotes::reset() {
@@ -473,7 +505,8 @@ RayNotes::Note& RayNotes::add_note(const RayCall& call) {
     float* args = arena.allocate_span<float>(floats).data();
     std::copy_n(call.lanes.call().args, floats, args);
     const size_t rays = PlannedSamples(call.lanes, call.plan).count();
-    *note = {&call.grid,
+    *note = {&call.grid.of_surface(),
+             call.grid.look,
              call.lanes.call().first,
              call.lanes.mask(),
              call.rows,
@@ -512,9 +545,9 @@ void RayNotes::note(const RayCall& call, const RayTag& tag, const AddSamples& ad
 
 std::optional<std::span<const SeenByRay>> RayNotes::find(const RayCall& call) {
     const jit::ServiceCall& asked = call.lanes.call();
-    auto is_of = [&](const Note* note) { return note && note->grid == &call.grid; };
-    while (is_of(next_) && next_->first < asked.first) next_ = next_->next;
-    for (Note* n = next_; is_of(n) && n->first == asked.first; n = n->next) {
+    const Grid& grid = call.grid;
+    while (is_of(next_, grid) && next_->first < asked.first) next_ = next_->next;
+    for (Note* n = next_; is_of(n, grid) && n->first == asked.first; n = n->next) {
         const bool same = n->mask == call.lanes.mask() && n->rows == call.rows &&
                           same_rays(n->plan, call.plan) &&
                           same_arguments(n->args, asked.args, call.rows, n->mask);
@@ -537,9 +570,9 @@ void RayNotes::flush() {
     memory_.arena.release(mark);
 }
 
-bool sends_noted_rays(const Grid& grid) {
+bool sends_noted_rays(const ShaderInstance& look, const Grid& grid) {
     return std::ranges::any_of(ray_kinds(), [&](const RayKindRow& row) {
-        return row.noted && !is_too_deep(row, grid) && calls_service(grid.look->full, row.kind);
+        return row.noted && !is_too_deep(row, grid) && calls_service(look.full, row.kind);
     });
 }
 

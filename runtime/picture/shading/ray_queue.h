@@ -52,6 +52,7 @@ struct RayCall {
     int label = -1;          // the row of the rays' label; below 0: they have none
     bool distances = false;  // rays that find what passes find the nearest surface, too
     bool diffuse = false;    // they find light that a point gets from all around
+    uint32_t scattered = 0;  // lanes whose rays go in many directions, of which each shows little
 };
 
 // Adds the rays of samples, whose slots count up from `slot`; none for those that see nothing.
@@ -78,7 +79,8 @@ class RayQueue {
     // The same for rays that find hits.
     void send(const RayCall& call, const AddSamples& add, const MeetSamples& meet);
 
-    // Stages, for rays that are made already: what they find, by slot. They consume the rays.
+    // Stages, for rays that are made already: what they find, by slot; `seen` has a place for each
+    // slot. They consume the rays.
     void see(raytrace::RayBatch& rays, uint32_t depth, const RayTag& tag, ThreadMemory& memory,
              std::span<SeenByRay> seen);
     void pass(raytrace::RayBatch& rays, const RayTag& tag, ThreadMemory& memory, bool distances,
@@ -86,6 +88,8 @@ class RayQueue {
 
   private:
     static bool is_noting(const Grid& grid);
+    // --clamp-indirect.
+    void dim(const RayTag& tag, std::span<SeenByRay> seen) const;
     void send_alike(const RayCall& call, const RayTag& tag, const AddSamples& add,
                     const SumSamples& sum);
     void see_layer(raytrace::RayBatch& rays, const raytrace::HitBatch& hits, const RayTag& tag,
@@ -113,7 +117,7 @@ class RayNotes {
     // Between these two, calls are noted.
     void start();
     void finish();
-    // Before the second run of a grid.
+    // Before the second run of a grid, of a surface or of a light at a surface's points.
     void answer(const Grid& grid);
     // Forgets all calls, whose memory is the arena's.
     void reset();
@@ -121,6 +125,7 @@ class RayNotes {
   private:
     friend class RayQueue;
     struct Note;
+    static bool is_of(const Note* note, const Grid& grid);
     bool open() const { return open_; }
     // Notes a call, whose rays wait for those of others.
     void note(const RayCall& call, const RayTag& tag, const AddSamples& add);
@@ -140,7 +145,8 @@ class RayNotes {
     bool open_ = false;
 };
 
-// Whether the grid's kernel calls services whose rays may be sent from there and wait for others.
-bool sends_noted_rays(const Grid& grid);
+// Whether the kernel of a look calls services whose rays may be sent from the grid's points and
+// wait for others.
+bool sends_noted_rays(const ShaderInstance& look, const Grid& grid);
 
 }  // namespace kinora

@@ -52,6 +52,16 @@ class TraceRays {
     int count(int lane) const {
         return lanes_.number(Spread, lane) > 0 ? lanes_.samples(Samples, lane) : 1;
     }
+    // Lanes whose rays are some of many: in a cone, or calls of their own, which say how many.
+    uint32_t scattered() const {
+        uint32_t lanes = 0;
+        for (int lane = 0; lane < kLanes; ++lane)
+            if (lanes_.asks(lane))
+                lanes |=
+                    uint32_t(lanes_.number(Spread, lane) > 0 || lanes_.samples(Samples, lane) > 1)
+                    << lane;
+        return lanes;
+    }
     RayWish wish(int lane) const {
         return {.samples = count(lane),
                 .aims = has_direction(lanes_.triple(R, lane)),
@@ -100,8 +110,14 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
             distance[lane] = std::min(distance[lane], seen[i].distance);
         }
     };
-    queue_.send({RayKind::Trace, grid, lanes, plan, TraceRays::Rows, TraceRays::Label}, add,
-                SumSamples(sum));
+    queue_.send({.kind = RayKind::Trace,
+                 .grid = grid,
+                 .lanes = lanes,
+                 .plan = plan,
+                 .rows = TraceRays::Rows,
+                 .label = TraceRays::Label,
+                 .scattered = along.scattered()},
+                add, SumSamples(sum));
     for (int lane = 0; lane < kLanes; ++lane) {
         const int n = plan.count[lane];
         if (n > 1) color[lane] /= float(n);
@@ -527,7 +543,12 @@ void RayServices::indirect_diffuse(Grid& grid, const jit::ServiceCall& call) {
     });
     IndirectSum sum(*frame_.resources.textures, lanes, plan);
     queue_.send(
-        {RayKind::Indirect, grid, lanes, plan, IndirectSum::Rows},
+        {.kind = RayKind::Indirect,
+         .grid = grid,
+         .lanes = lanes,
+         .plan = plan,
+         .rows = IndirectSum::Rows,
+         .scattered = lanes.mask()},
         [&](raytrace::RayBatch& rays, const SampleSpan& planned, uint32_t slot) {
             auto shoots = [&](size_t at) {
                 const int lane = planned.lane[at];

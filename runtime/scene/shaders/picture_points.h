@@ -23,7 +23,9 @@ struct RayTag {
     RayType type = RayType::Camera;
     int32_t label = 0;                   // interned; of trace or gather
     uint32_t specular = 0, diffuse = 0;  // rays of each type on the way from the eye
-    uint32_t counted = 0;  // lamps whose light the sender gets from them: ShadingFrame::counted
+    uint32_t counted = 0;    // lamps whose light the sender gets from them: ShadingFrame::counted
+    bool scattered = false;  // some ray on the way was one of many, in many directions
+    uint32_t most_samples = 0;  // that a call takes there, --samples-behind; 0: all it asks for
 
     bool operator==(const RayTag&) const = default;
 };

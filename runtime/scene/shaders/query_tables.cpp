@@ -243,6 +243,13 @@ Fact shadow_depth(const Asker& asker) {
     return asker.seen->ray.type == RayType::Transmission ? 1.0 : 0.0;
 }
 
+// Integrators keep no more samples than these.
+Fact sample_limit(const Asker& asker) {
+    constexpr double kNoLimit = 1e9;
+    const uint32_t most = asker.seen->ray.most_samples;
+    return most ? double(most) : kNoLimit;
+}
+
 constexpr Row kRay[] = {
     {"depth", depth},
     {"type", kind},
@@ -255,6 +262,7 @@ constexpr Row kRay[] = {
     {"speculardepth", specular_depth},
     {"diffusedepth", ray_diffuse_depth},
     {"shadowdepth", shadow_depth},
+    {"samplelimit", sample_limit},
 };
 
 // -------------------------------------------------------------------------------------------------
@@ -275,8 +283,8 @@ std::span<const Row> rows_of(rsl::QueryKind kind_asked) {
 }
 
 // Of rays, by name: what their tag and depth say.
-constexpr std::string_view kOfTag[] = {"depth",         "type",         "label",
-                                       "speculardepth", "diffusedepth", "shadowdepth"};
+constexpr std::string_view kOfTag[] = {"depth",        "type",        "label",      "speculardepth",
+                                       "diffusedepth", "shadowdepth", "samplelimit"};
 
 std::string_view plain_name(const Query& query) {
     std::string_view name = query.name;

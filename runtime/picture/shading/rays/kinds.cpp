@@ -41,6 +41,13 @@ RayTag sent_tag(const RayTag& from, const RayKindRow& row, int32_t label) {
     return tag;
 }
 
+int samples_at(const RayTag& tag, int asked) {
+    if (tag.most_samples == 0 || asked <= int(tag.most_samples)) return asked;
+    int fitting = int(tag.most_samples);
+    while (asked % fitting != 0) --fitting;
+    return fitting;
+}
+
 bool is_too_deep(const RayKindRow& row, const RayDepth& at) {
     if (row.finds == RayFinds::Passing) return false;
     return at.depth >= at.most_depth ||

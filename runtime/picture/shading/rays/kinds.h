@@ -1,6 +1,7 @@
 // runtime/picture/shading/rays/kinds.h: the kinds of rays that shaders and lights send, a row each.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -44,6 +45,15 @@ inline const RayKindRow& row_of(RayKind kind) {
 
 // Of points that rays of the kind see, sent from points with the tag `from`.
 RayTag sent_tag(const RayTag& from, const RayKindRow& row, int32_t label);
+
+// How many samples of a call count at points with the tag, where it asks for so many: a divisor.
+int samples_at(const RayTag& tag, int asked);
+
+// A colour whose largest component is no more than `most`.
+inline vec3 dimmed(vec3 color, double most) {
+    const float largest = std::max({color.x, color.y, color.z});
+    return largest > float(most) ? color * (float(most) / largest) : color;
+}
 
 // Depths at which rays are sent: of the hit that sends them.
 struct RayDepth {
