@@ -1,5 +1,6 @@
 // runtime/picture/explain/explain_lights.cpp: which lights reach which materials, and why others do
-// not: by the tests that the shading of a grid makes (runtime/picture/shading/light_records.cpp).
+// not: by the tests that the shading of a grid makes
+// (runtime/picture/shading/lighting/light_records.cpp).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -10,7 +10,7 @@
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/insight.h"
-#include "runtime/picture/shading/lamps.h"
+#include "runtime/picture/shading/lighting/lamps.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/shading_frame.h"
 

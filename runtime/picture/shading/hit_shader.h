@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "runtime/picture/shading/lamp_rays.h"
+#include "runtime/picture/shading/lighting/lamp_rays.h"
 #include "runtime/picture/shading/volumes.h"
 
 namespace kinora {

@@ -6,7 +6,7 @@
 #include "raytrace/hits.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/bake.h"
-#include "runtime/picture/shading/light_records.h"
+#include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"

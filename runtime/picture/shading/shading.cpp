@@ -11,7 +11,7 @@
 #include "runtime/picture/shading/grid_host.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/imager.h"
-#include "runtime/picture/shading/lamps.h"
+#include "runtime/picture/shading/lighting/lamps.h"
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "runtime/picture/shading/light_records.h"
+#include "runtime/picture/shading/lighting/light_records.h"
 
 namespace kinora {
 

@@ -6,7 +6,7 @@
 
 #include "rsl/model/kernel_keys.h"
 #include "runtime/picture/shading/grid.h"
-#include "runtime/picture/shading/light_records.h"
+#include "runtime/picture/shading/lighting/light_records.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/picture/shading/sampled_records.cpp: records of lights with sample methods: their samples
-// at lit points, and what they send from directions that a material has chosen.
+// runtime/picture/shading/lighting/sampled_records.cpp: records of lights with sample methods:
+// their samples at lit points, and what they send from directions that a material has chosen.
 //
 // Cl of a sample is radiance / (PI x density), density being the number of samples x pdf: the sum
 // over the samples is then the light that a point light of Cl would give, for diffuse() and for
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "runtime/picture/shading/light_records.h"
+#include "runtime/picture/shading/lighting/light_records.h"
 
 namespace kinora {
 

@@ -1,5 +1,5 @@
-// runtime/picture/shading/lit_points.cpp: points where light is wanted.
-#include "runtime/picture/shading/lit_points.h"
+// runtime/picture/shading/lighting/lit_points.cpp: points where light is wanted.
+#include "runtime/picture/shading/lighting/lit_points.h"
 
 #include <algorithm>
 #include <cmath>

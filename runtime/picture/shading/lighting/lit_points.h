@@ -1,4 +1,4 @@
-// runtime/picture/shading/lit_points.h: points where light is wanted.
+// runtime/picture/shading/lighting/lit_points.h: points where light is wanted.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// runtime/picture/shading/light_records.cpp: light kernels over the points of a grid.
-#include "runtime/picture/shading/light_records.h"
+// runtime/picture/shading/lighting/light_records.cpp: light kernels over the points of a grid.
+#include "runtime/picture/shading/lighting/light_records.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-// runtime/picture/shading/light_records.h: lights run once for a grid; their answers become records
-// that surface kernels replay (docs/decisions.md#lights-run-once).
+// runtime/picture/shading/lighting/light_records.h: lights run once for a grid; their answers
+// become records that surface kernels replay (docs/decisions.md#lights-run-once).
 #pragma once
 
 #include <array>
 
 #include "runtime/picture/lights/light_samples.h"
 #include "runtime/picture/lights/unseen_light.h"
-#include "runtime/picture/shading/area_light.h"
 #include "runtime/picture/shading/kernel_runner.h"
+#include "runtime/picture/shading/lighting/area_light.h"
 
 namespace kinora {
 

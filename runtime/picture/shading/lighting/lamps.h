@@ -1,4 +1,5 @@
-// runtime/picture/shading/lamps.h: what is seen of surfaces that are lights (docs/lights.md).
+// runtime/picture/shading/lighting/lamps.h: what is seen of surfaces that are lights
+// (docs/lights.md).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// runtime/picture/shading/lamp_rays.cpp: rays to lights, made and sent in full batches.
-#include "runtime/picture/shading/lamp_rays.h"
+// runtime/picture/shading/lighting/lamp_rays.cpp: rays to lights, made and sent in full batches.
+#include "runtime/picture/shading/lighting/lamp_rays.h"
 
 #include <algorithm>
 #include <bit>

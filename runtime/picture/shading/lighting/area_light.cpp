@@ -1,5 +1,5 @@
-// runtime/picture/shading/area_light.cpp: lights on geometry: their shaders run at samples of the
-// mesh.
+// runtime/picture/shading/lighting/area_light.cpp: lights on geometry: their shaders run at samples
+// of the mesh.
 //
 // Each lit point asks n samples, spread evenly over the area: an Owen-scrambled (0,2)-sequence
 // seeded by the point and the light, so that the first 2^k are stratified and nothing depends on
@@ -7,7 +7,7 @@
 // illuminates is a record) whose Cl counts 1/n: the mean over the surface of what a point light
 // with that shader would give, so a light that shrinks to a point becomes that point light. The
 // samples follow the mesh of the frame. A surface does not light itself.
-#include "runtime/picture/shading/area_light.h"
+#include "runtime/picture/shading/lighting/area_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,5 @@
-// runtime/picture/shading/area_light.h: lights on geometry: where on it each lit point looks.
+// runtime/picture/shading/lighting/area_light.h: lights on geometry: where on it each lit point
+// looks.
 #pragma once
 
 #include <memory>
@@ -9,7 +10,7 @@
 #include "raytrace/random/series.h"
 #include "runtime/picture/lights/light_bindings.h"
 #include "runtime/picture/shading/grid.h"
-#include "runtime/picture/shading/lit_points.h"
+#include "runtime/picture/shading/lighting/lit_points.h"
 
 namespace kinora {
 

@@ -1,8 +1,8 @@
-// runtime/picture/shading/lamps.cpp: what is seen of surfaces that are lights.
+// runtime/picture/shading/lighting/lamps.cpp: what is seen of surfaces that are lights.
 //
 // A light on geometry sends a point the mean of Cl cos over its area. A surface of radiance L sends
 // the integral of L cos cos' / (pi d^2), so L = pi Cl d^2 / (area cos').
-#include "runtime/picture/shading/lamps.h"
+#include "runtime/picture/shading/lighting/lamps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "raytrace/hits.h"
 #include "runtime/picture/shading/kernel_runner.h"
-#include "runtime/picture/shading/light_records.h"
+#include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/description/shader_library.h"
 #include "runtime/scene/kernels/columns.h"

@@ -1,10 +1,11 @@
-// runtime/picture/shading/lamp_rays.h: rays from lit points to their lights: automatic shadows.
+// runtime/picture/shading/lighting/lamp_rays.h: rays from lit points to their lights: automatic
+// shadows.
 #pragma once
 
 #include <span>
 
 #include "raytrace/points/points.h"
-#include "runtime/picture/shading/light_records.h"
+#include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/rays/smooth_surface.h"
 
