@@ -17,6 +17,7 @@ inline constexpr uint32_t kMaskOpaque = kSeenByAll;
 inline constexpr uint32_t kMaskNotOpaque = kSeenByAll << 4;
 inline constexpr uint32_t kMaskAll = kMaskOpaque | kMaskNotOpaque;
 inline constexpr uint32_t kMaskCamera = 1u << 31;
+inline constexpr uint32_t kMaskLamp = kSeenAsLamp;  // of rays that look for lamps alone
 // What the rays of some meet, opaque or not.
 constexpr uint32_t mask_of_viewer(uint32_t seen_by) {
     return seen_by | seen_by << 4;

@@ -52,7 +52,8 @@ ReferenceHit brute_force(std::span<const Geometry> geometry, const ReferenceRay&
     for (uint32_t row = 0; row < geometry.size(); ++row) {
         const Geometry& g = geometry[row];
         const uint32_t kind = g.opaque ? kMaskOpaque : kMaskNotOpaque;
-        if (!(ray.mask & mask_of_viewer(g.seen_by) & kind)) continue;
+        const uint32_t mask = (mask_of_viewer(g.seen_by) & kind) | (g.seen_by & kMaskLamp);
+        if (!(ray.mask & mask)) continue;
         for (uint32_t triangle = 0; triangle < g.triangles.size() / 3; ++triangle) {
             dvec3 p[3];
             corners(g, triangle, p);

@@ -14,6 +14,8 @@ inline constexpr uint32_t kNone = ~0u;  // "no geometry", "no primitive"
 // Whose rays meet a surface: bits of Geometry::seen_by.
 inline constexpr uint32_t kSeenByCamera = 1, kSeenByReflections = 2, kSeenByDiffuse = 4,
                           kSeenByShadows = 8, kSeenByAll = 15;
+// With these, of a surface that is a light: rays that look for lamps meet it in any case.
+inline constexpr uint32_t kSeenAsLamp = 1u << 8;
 
 enum class GeometryKind : uint8_t {
     Static,     // never moves; all such rows are concatenated into one structure of MEDIUM quality

@@ -10,7 +10,8 @@
 namespace kinora::raytrace {
 
 inline uint32_t mask_of(const Geometry& g) {
-    return mask_of_viewer(g.seen_by) & (g.opaque ? kMaskOpaque : kMaskNotOpaque);
+    return (mask_of_viewer(g.seen_by) & (g.opaque ? kMaskOpaque : kMaskNotOpaque)) |
+           (g.seen_by & kMaskLamp);
 }
 
 inline bool same_buffers(const Geometry& a, const Geometry& b) {

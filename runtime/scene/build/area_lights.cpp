@@ -5,7 +5,7 @@
 
 namespace kinora {
 
-bool add_area_lights(SceneDescription& description, const SceneShapes& shapes, SceneLights& scene,
+bool add_area_lights(SceneDescription& description, SceneShapes& shapes, SceneLights& scene,
                      std::span<const SurfaceUse> uses) {
     size_t before = scene.lights.size();
     for (uint32_t s = 0; s < shapes.surfaces.size(); ++s) {
@@ -15,6 +15,7 @@ bool add_area_lights(SceneDescription& description, const SceneShapes& shapes, S
         std::vector<ShaderUse> lights = material.lights;
         std::string key;  // each surface is a light of its own
         apply_binds(description, use, lights, key);
+        if (!lights.empty()) shapes.surfaces[s].seen_by |= raytrace::kSeenAsLamp;
         for (ShaderUse& light : lights) {
             LightDefinition definition;
             definition.id = material.id;

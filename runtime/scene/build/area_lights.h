@@ -11,7 +11,7 @@ namespace kinora {
 
 // A light for each surface and LIGHT shader of its material. Whether there is any. Writes
 // Scene::lights and the description's.
-bool add_area_lights(SceneDescription& description, const SceneShapes& shapes, SceneLights& scene,
+bool add_area_lights(SceneDescription& description, SceneShapes& shapes, SceneLights& scene,
                      std::span<const SurfaceUse> uses);
 
 }  // namespace kinora

@@ -43,6 +43,7 @@ AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings)
         auto& light = lights_.emplace_back();
         if (source.surface == kNone) continue;
         light = std::make_unique<AreaLight>();
+        any_ = true;
         light->surface = source.surface;
         light->directed = bindings.directed(l);
     }

@@ -52,6 +52,7 @@ class AreaLights {
     void begin_frame();
     // Light `light` among Scene::lights; null where it is none on geometry.
     const AreaLight* find(size_t light) const { return lights_[light].get(); }
+    bool any() const { return any_; }
     // A sample of the light at each point; `lit` is the grid that its kernel runs on.
     void choose(const Grid& lit, const LightPoints& at, const AreaLight& light, SampleNumber sample,
                 LightSamples& samples) const;
@@ -59,6 +60,7 @@ class AreaLights {
   private:
     const ShadingFrame& frame_;
     std::vector<std::unique_ptr<AreaLight>> lights_;
+    bool any_ = false;
 };
 
 }  // namespace kinora

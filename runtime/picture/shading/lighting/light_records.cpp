@@ -12,7 +12,6 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/columns/sixteen_points.h"
 #include "runtime/picture/lights/cone_samples.h"
-#include "runtime/picture/shading/grid_host.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/kernels/columns.h"
@@ -444,62 +443,6 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     if (making.record_count < end) dark_records(making, statement, binding, end);
 }
 
-// Of a light on geometry, whose samples share its light; its own surface has none of it.
-static void take_share(const AreaLight& light, uint32_t samples, const LightPoints& at, float* Cl) {
-    for (size_t i = 0; i < padded(at.count); ++i) {
-        const bool own = at.surface[std::min(i, at.count - 1)] == light.surface;
-        Cl[i] = own || !light.has_area() ? 0.0f : Cl[i] / float(samples);
-    }
-}
-
-void LightRecords::area_records(Making& making, size_t l) {
-    Grid& grid = making.grid;
-    const LightPoints& at = making.at;
-    const AreaLight& light = *area_lights_.find(l);
-    const ShaderInstance& look = look_of_light(frame_, l);
-    Arena& arena = grid.memory.arena;
-    std::span<uint32_t> points = arena.allocate_span<uint32_t>(at.count);
-    for (uint32_t i = 0; i < at.count; ++i) points[i] = i;
-    LightSamples samples(grid, at.first, at.count, light.surface);
-    Grid lit(frame_, grid.memory, samples.hits, points, &look);
-    kernels_.prepare(lit, grid.ray);
-    lit.rays = accounts(making);
-    lit.shadows = grid.shadows;
-    lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
-    if (lit.surface) {
-        lit.lit = &grid;
-        lit.lit_first = at.first;
-    }
-    if (look.lowered.gathers.empty()) lit.record_sets = grid.record_sets;
-    // The mesh's columns are gathered for each sample; those of the lit points stay.
-    auto of_point = [&](uint16_t c) -> const float* {
-        if (c >= kColPs && c < kColPs + 3) return at.P[c - kColPs];
-        if (c >= kColNs && c < kColNs + 3) return at.N[c - kColNs];
-        if (c >= kColSentL && c < kColSentL + 3) return at.zeros;
-        return c == kColRng ? at.rng : nullptr;
-    };
-    for (uint16_t column : look.full.columns)
-        if (!of_point(column)) kinora::want_columns(lit, {&column, 1});
-    std::span<float*> mesh = arena.allocate_span<float*>(lit.columns.size());
-    std::copy(lit.columns.begin(), lit.columns.end(), mesh.begin());
-    const LightBinding& binding = bindings_.binding(grid.look->index, l);
-    const uint32_t count = uint32_t(samples_of(l, bindings_.statements(l)[0], grid));
-    for (uint32_t k = 0; k < count; ++k) {
-        area_lights_.choose(lit, at, light, {k, count}, samples);
-        std::copy(mesh.begin(), mesh.end(), lit.columns.begin());
-        gather(lit);
-        for (uint16_t column : look.full.columns)
-            if (const float* row = of_point(column)) lit.columns[column] = const_cast<float*>(row);
-        std::span<float*> out = kernels_.run(look.full, lit);
-        grid.memory.counters.light_points += at.count;
-        for (const LightOutputs& statement : bindings_.statements(l)) {
-            for (int output : statement.Cl)
-                if (output >= 0) take_share(light, count, at, out[size_t(output)]);
-            make_record(making, statement, binding, out, true, &samples);
-        }
-    }
-}
-
 namespace {
 
 // Cl as it is before its shadows.
@@ -614,111 +557,9 @@ int32_t LightRecords::along(Grid& grid, const jit::ServiceCall& call) {
     for (size_t l : sampling_)
         if (bindings_.binding(grid.look->index, l).seen && reaches(reaches_[l], lit))
             record_along(making, l, call);
+    lamps_along(making, call);
     grid.record_sets[handle] = {int32_t(making.record_count), making.records.data()};
     return int32_t(handle);
-}
-
-// Lights whose shaders send all of their light against where the light looks: most often shaders
-// that were written for a "shader" space that looks along -z.
-namespace {
-
-// Rings around the axis, before the light and behind it; cones may be narrow.
-constexpr double kRingDegrees[] = {0.5, 2, 5, 10, 20, 35, 55, 80};
-constexpr int kOnRing = 4;
-constexpr size_t kProbes = 2 * std::size(kRingDegrees) * kOnRing;
-static_assert(kProbes % jit::kMaxLanes == 0);
-
-// A point that is lit, in the light's space, as directions from it; at two distances.
-dvec3 probe(size_t k, double size) {
-    size_t ring = k / 2 / kOnRing;
-    double angle = radians(kRingDegrees[ring]),
-           turn = 2 * kPi * (double(k / 2 % kOnRing) + 0.3) / kOnRing;
-    double z = k % 2 ? -std::cos(angle) : std::cos(angle);
-    double distance = size * (k / 2 % 2 ? 1 : 0.1);
-    return distance * dvec3(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), z);
-}
-
-// Nobody reads what is printed here.
-class SilentHost : public UnlitHost {
-  public:
-    using UnlitHost::UnlitHost;
-    void print(const jit::ServiceCall&) override {}
-};
-
-// The probes through the light's kernel; a row for each output.
-std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& look, Arena& arena) {
-    const BoundKernel& bound = look.full;
-    const jit::Kernel& kernel = bound.kernel();
-    dmat4 current = current_from_space(frame.nodes, frame.pose, "shader", look.space_owner());
-    dvec3 origin(current[3]);
-    auto new_row = [&] {
-        std::span<float> row = arena.allocate_span<float>(kProbes);
-        std::fill(row.begin(), row.end(), 0.0f);
-        return row.data();
-    };
-    auto value = [&](uint16_t column, dvec3 P) {
-        dvec3 N = glm::normalize(origin - P);
-        if (column >= kColPs && column < kColPs + 3) return float(P[column - kColPs]);
-        if (column >= kColNs && column < kColNs + 3) return float(N[column - kColNs]);
-        if (column >= kColN && column < kColN + 3) return float(N[column - kColN]);
-        if (column >= kColP && column < kColP + 3) return float(origin[column - kColP]);
-        return 0.0f;
-    };
-    std::span<float*> columns = arena.allocate_span<float*>(look.column_count);
-    for (uint16_t column : bound.columns) {
-        float* row = columns[column] = new_row();
-        for (size_t k = 0; k < kProbes; ++k)
-            row[k] = value(column, dvec3(current * dvec4(probe(k, frame.shapes.size), 1)));
-    }
-    std::span<float*> out = take_outputs(kernel, kProbes, arena);
-    std::span<jit::RecordSet> records = arena.allocate_span<jit::RecordSet>(kRecordSets);
-    std::fill(records.begin(), records.end(), jit::RecordSet{});
-    std::span<uint8_t> faults = arena.allocate_span<uint8_t>(kernel.fault_sites.size());
-    SilentHost host(frame.scene, frame.pose, look);
-    bound.run({.count = kProbes,
-               .frame = frame.instances[look.index].full,
-               .columns = columns,
-               .out = out,
-               .faults = faults,
-               .record_sets = records,
-               .host = host},
-              arena);
-    return out;
-}
-
-}  // namespace
-
-void LightRecords::report_aims(Diagnostics& diagnostics) const {
-    // The interface's lights are aimed by parameters of their own.
-    if (frame_.resources.description->file_picture) return;
-    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
-        const LightSource& light = frame_.lights.lights[l];
-        const ShaderInstance& look = look_of_light(frame_, l);
-        // A shader that does not read its space has another aim, as the default lights have.
-        bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
-        if (look.area_light || !aims || !bindings_.directed(l)) continue;
-        Arena arena;
-        std::span<float*> out = run_probes(frame_, look, arena);
-        dvec3 forward(
-            current_from_space(frame_.nodes, frame_.pose, "shader", look.space_owner())[2]);
-        bool before = false, behind = false;
-        for (const LightOutputs& statement : bindings_.statements(l)) {
-            if (statement.kind == rsl::kLightAmbient || statement.L[0] < 0) continue;
-            for (size_t k = 0; k < kProbes; ++k) {
-                auto at = [&](int output) { return output < 0 ? 0.0f : out[size_t(output)][k]; };
-                bool lit = statement.lit < 0 || jit::bits_of(at(statement.lit)) != 0;
-                float most =
-                    std::max({at(statement.Cl[0]), at(statement.Cl[1]), at(statement.Cl[2])});
-                if (!lit || !(most > 0)) continue;
-                dvec3 to_light(at(statement.L[0]), at(statement.L[1]), at(statement.L[2]));
-                (glm::dot(to_light, forward) > 0 ? behind : before) = true;
-            }
-        }
-        const LightDefinition& definition = frame_.resources.description->lights[light.definition];
-        if (behind && !before)
-            diagnostics.report(Code::LIGHT_AIMS_BACK, definition.where,
-                               definition.id.empty() ? definition.name : definition.id);
-    }
 }
 
 }  // namespace kinora

@@ -19,6 +19,12 @@ class LightShadows {
     virtual void cast(const Grid& grid, const LightPoints& at, const SentLight& light) = 0;
 };
 
+// Rows of the arguments of the service samplinglights.
+enum AlongArgument { kAlong = 3, kMaterialDensity = 6, kHeuristic = 7 };
+inline const float* along_argument(const jit::ServiceCall& call, int row) {
+    return call.args + row * jit::kMaxLanes;
+}
+
 // L, where its shadow ray ends, Cl and density of a sample.
 using SampleColumnList = std::array<float*, 10>;
 
@@ -92,7 +98,15 @@ class LightRecords {
     static int32_t domain_of(const ShaderInstance& look);
     // What one light sends from the directions of samplinglights.
     void record_along(Making& making, size_t light, const jit::ServiceCall& call);
+    // Of a light on geometry (area_records.cpp).
+    class AreaKernel;
     void area_records(Making& making, size_t light);
+    void area_record(Making& making, size_t light, AreaKernel& kernel,
+                     const LightOutputs& statement, std::span<float* const> out) const;
+    // What lights on geometry send from the directions of samplinglights.
+    void lamps_along(Making& making, const jit::ServiceCall& call);
+    void lamp_along(Making& making, size_t light, const jit::ServiceCall& call,
+                    const raytrace::RayBatch& rays, const raytrace::HitBatch& hits);
     // Records of solar with an angle: a sample of its cone each, with its share of the light. Where
     // the block reads L, the kernel of `lit` runs again for each.
     void cone_records(Making& making, size_t light, const LightOutputs& statement, Grid& lit,

@@ -129,23 +129,12 @@ void LightRecords::add_sample(Making& making, size_t l, std::span<float* const> 
 
 // ---- from directions ----------------------------------------------------------------------------
 
-namespace {
-
-// Rows of the arguments of samplinglights.
-enum AlongArgument { kAlong = 3, kMaterialDensity = 6, kHeuristic = 7 };
-
-const float* argument(const jit::ServiceCall& call, int row) {
-    return call.args + row * jit::kMaxLanes;
-}
-
-}  // namespace
-
 void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall& call) {
     Grid& grid = making.grid;
     LightQuestion question;
     question.wish = rsl::SampleWish::Evaluate;
     question.domain = domain_of(*grid.look);
-    for (int k = 0; k < 3; ++k) question.along[k] = argument(call, kAlong + k);
+    for (int k = 0; k < 3; ++k) question.along[k] = along_argument(call, kAlong + k);
     const size_t count = making.at.count, points = padded(count);
     LightAnswer answer(question, count, grid.memory.arena);
     LitGrid lit(frame_, making, l);
@@ -156,8 +145,8 @@ void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall
     for (size_t i = 0; i < points; ++i) {
         const PointSample at(*answer.first(), i, far_);
         const bool asks = i < count && (call.mask >> i & 1) && at.shines;
-        const float own = argument(call, kMaterialDensity)[i],
-                    power = argument(call, kHeuristic)[i];
+        const float own = along_argument(call, kMaterialDensity)[i],
+                    power = along_argument(call, kHeuristic)[i];
         const float lights = samples && asks ? samples[size_t(call.first) + i] * at.pdf : 0.0f;
         sample.set(i, at.L, asks ? at.Cl * sample_weight(own, lights, power) : vec3(0.0f), lights);
     }

@@ -250,6 +250,41 @@ TEST(SampledLights, WeighingIsAsGoodAsTheBetterStrategyEverywhere) {
     EXPECT_LE(whole[1], 0.35 * std::min(whole[0], whole[2]));
 }
 
+// The floor under a square of the mesh that shines by both sides, of that half width.
+SceneText under_square(double half, const std::string& binds) {
+    SceneText scene = floor_scene(kPlate, surface(binds));
+    scene.square("lamp", half)
+        .look("lamp-look",
+              "light panel() { illuminate(P) Cl = 8 *"
+              " abs(normalize(L) . normalize(N)) / (L . L); }",
+              "<shader stage=\"LIGHT\"/>");
+    return scene.place("lamp", "lamp-look",
+                       "<translate>0 0.5 3</translate><rotate>1 0 0 150</rotate>");
+}
+
+// A lamp on geometry: the material's directions that meet its mesh are weighed against its samples.
+TEST(SampledLights, LampsOnGeometryAreWeighedAsWell) {
+    constexpr int kSamples = 16;  // of lamps, too
+    for (double rough : {0.05, 0.4}) {
+        Noise by[3];
+        for (int mis = 0; mis < 3; ++mis)
+            by[mis] = noise_of(under_square(
+                0.7, number("mis", mis) + number("samples", kSamples) + number("rough", rough)));
+        EXPECT_NEAR(by[1].mean, by[0].mean, 0.02 * by[0].mean) << rough;
+        const double least = std::min(by[0].variance, by[2].variance);
+        EXPECT_LE(by[1].variance, 1.1 * least + by[0].mean * by[0].mean / (10 * kSamples)) << rough;
+    }
+    auto mean = [](double mis) {
+        SceneText scene =
+            under_square(1, number("mis", mis) + number("samples", 64) + number("rough", 0.3));
+        return mean_of(scene, 4);
+    };
+    const double lights = mean(0);
+    EXPECT_GT(lights, 0.01);
+    EXPECT_NEAR(mean(1), lights, 2e-3 * lights);
+    EXPECT_NEAR(mean(2), lights, 1e-2 * lights);
+}
+
 // A square halfway hides the lamp's lower part from some points and all of it from others.
 TEST(SampledLights, ShadowsTakeSamplesAway) {
     SceneText scene = lit_floor(kMatte, 2, number("samples", 64));

@@ -1,0 +1,267 @@
+// runtime/picture/shading/lighting/area_records.cpp: records of lights on geometry: of samples of
+// their meshes, and of what they send from directions that a material has chosen.
+//
+// A sample is d^2 / (area cos') dense by solid angle, and its radiance is pi Cl times that: so Cl /
+// n is the Cl of a record (sampled_records.cpp).
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "raytrace/hits.h"
+#include "runtime/picture/shading/lane_rays.h"
+#include "runtime/picture/shading/lighting/light_records.h"
+#include "runtime/scene/kernels/columns.h"
+
+namespace kinora {
+
+// The light's kernel at a sample of its mesh for each lit point.
+class LightRecords::AreaKernel {
+  public:
+    AreaKernel(LightRecords& all, const Making& making, size_t light);
+    AreaKernel(const AreaKernel&) = delete;
+    // The outputs for the samples as they are chosen.
+    std::span<float*> run();
+    // Of the samples, by solid angle, were each the only one.
+    std::span<float> densities(const LightOutputs& statement, std::span<float* const> out) const;
+    // Whether the light may reach a point: a surface does not light itself.
+    bool may_light(size_t i) const {
+        return light.has_area() && at.surface[std::min(i, at.count - 1)] != light.surface;
+    }
+
+    const AreaLight& light;
+    const LightPoints& at;
+    LightSamples samples;
+    Grid lit;
+    const uint32_t count;  // samples of a point
+
+  private:
+    // What the kernel reads of the lit point; the rest is the mesh's.
+    const float* of_point(uint16_t column) const;
+
+    LightRecords& all_;
+    Arena& arena_;
+    std::span<float*> mesh_;  // columns
+};
+
+namespace {
+
+std::span<uint32_t> numbers_up_to(size_t count, Arena& arena) {
+    std::span<uint32_t> numbers = arena.allocate_span<uint32_t>(count);
+    for (uint32_t i = 0; i < count; ++i) numbers[i] = i;
+    return numbers;
+}
+
+}  // namespace
+
+LightRecords::AreaKernel::AreaKernel(LightRecords& all, const Making& making, size_t l)
+    : light(*all.area_lights_.find(l)),
+      at(making.at),
+      samples(making.grid, at.first, at.count, light.surface),
+      lit(all.frame_, making.grid.memory, samples.hits,
+          numbers_up_to(at.count, making.grid.memory.arena),
+          all.frame_.shaders.shader_instances[all.frame_.lights.lights[l].look].get()),
+      count(uint32_t(all.samples_of(l, all.bindings_.statements(l)[0], making.grid))),
+      all_(all),
+      arena_(making.grid.memory.arena) {
+    Grid& grid = making.grid;
+    all.kernels_.prepare(lit, grid.ray);
+    lit.rays = accounts(making);
+    lit.shadows = grid.shadows;
+    if (grid.look->kind == ShaderInstanceKind::Surface) {
+        lit.surface = grid.look;
+        lit.lit = &grid;
+        lit.lit_first = at.first;
+    }
+    if (lit.look->lowered.gathers.empty()) lit.record_sets = grid.record_sets;
+    for (uint16_t column : lit.look->full.columns)
+        if (!of_point(column)) kinora::want_columns(lit, {&column, 1});
+    mesh_ = arena_.allocate_span<float*>(lit.columns.size());
+    std::copy(lit.columns.begin(), lit.columns.end(), mesh_.begin());
+}
+
+const float* LightRecords::AreaKernel::of_point(uint16_t c) const {
+    if (c >= kColPs && c < kColPs + 3) return at.P[c - kColPs];
+    if (c >= kColNs && c < kColNs + 3) return at.N[c - kColNs];
+    if (c >= kColSentL && c < kColSentL + 3) return at.zeros;
+    return c == kColRng ? at.rng : nullptr;
+}
+
+// The mesh's columns are gathered for each sample; those of the lit points stay.
+std::span<float*> LightRecords::AreaKernel::run() {
+    std::copy(mesh_.begin(), mesh_.end(), lit.columns.begin());
+    gather(lit);
+    for (uint16_t column : lit.look->full.columns)
+        if (const float* row = of_point(column)) lit.columns[column] = const_cast<float*>(row);
+    lit.memory.counters.light_points += at.count;
+    return all_.kernels_.run(lit.look->full, lit);
+}
+
+std::span<float> LightRecords::AreaKernel::densities(const LightOutputs& statement,
+                                                     std::span<float* const> out) const {
+    constexpr float kMost = 1e30f;
+    std::span<float> density = arena_.allocate_span<float>(padded(at.count));
+    const float area = light.has_area() ? light.below.back() : 0.0f;
+    for (size_t i = 0; i < density.size(); ++i) {
+        const size_t point = std::min(i, at.count - 1);
+        const vec3 L(out[size_t(statement.L[0])][point], out[size_t(statement.L[1])][point],
+                     out[size_t(statement.L[2])][point]);
+        const vec3 Ng = lit.frame.camera_from_accel * triple(samples.hits.Ng, point);
+        const float square = glm::dot(L, L), length = std::sqrt(square);
+        const float across = std::abs(glm::dot(Ng, L)) * area;
+        density[i] = across > 0 ? std::min(square * length / across, kMost) : kMost;
+    }
+    return density;
+}
+
+namespace {
+
+// The material's own directions may meet such light.
+bool is_weighed(const ShaderInstance& look, const LightOutputs& statement) {
+    return look.lowered.lit_by_samples && statement.kind == rsl::kLightIlluminate &&
+           statement.L[0] >= 0;
+}
+
+// A light's outputs and a density beside them.
+std::span<float* const> with_density(LightOutputs& statement, std::span<float* const> out,
+                                     std::span<float> density, Arena& arena) {
+    std::span<float*> all = arena.allocate_span<float*>(out.size() + 1);
+    std::copy(out.begin(), out.end(), all.begin());
+    all.back() = density.data();
+    statement.sampled = true;
+    statement.density = int(out.size());
+    std::copy_n(statement.L, 3, statement.end);
+    return all;
+}
+
+// Cl of each point becomes `factor(i)` times as much.
+template <class F>
+void scale(const LightOutputs& statement, std::span<float* const> out, size_t points, F&& factor) {
+    for (size_t i = 0; i < points; ++i) {
+        const float by = factor(i);
+        for (int output : statement.Cl)
+            if (output >= 0) out[size_t(output)][i] = by > 0 ? out[size_t(output)][i] * by : 0.0f;
+    }
+}
+
+}  // namespace
+
+void LightRecords::area_record(Making& making, size_t l, AreaKernel& kernel,
+                               const LightOutputs& own, std::span<float* const> out) const {
+    const size_t points = padded(making.at.count);
+    scale(own, out, points,
+          [&](size_t i) { return kernel.may_light(i) ? 1 / float(kernel.count) : 0.0f; });
+    LightOutputs statement = own;
+    std::span<float* const> columns = out;
+    if (is_weighed(*making.grid.look, own)) {
+        std::span<float> density = kernel.densities(own, out);
+        for (float& dense : density) dense *= float(kernel.count);
+        columns = with_density(statement, out, density, making.grid.memory.arena);
+    }
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+    make_record(making, statement, binding, columns, true, &kernel.samples);
+}
+
+void LightRecords::area_records(Making& making, size_t l) {
+    AreaKernel kernel(*this, making, l);
+    for (uint32_t k = 0; k < kernel.count; ++k) {
+        area_lights_.choose(kernel.lit, making.at, kernel.light, {k, kernel.count}, kernel.samples);
+        std::span<float*> out = kernel.run();
+        for (const LightOutputs& statement : bindings_.statements(l))
+            area_record(making, l, kernel, statement, out);
+    }
+}
+
+// ---- from directions ----------------------------------------------------------------------------
+
+namespace {
+
+constexpr int kMostLamps = 16;  // one behind the other along a direction
+
+// Rays of the lanes that ask, which meet lamps alone; a slot is the lane.
+void add_lamp_rays(raytrace::RayBatch& rays, const Grid& grid, const jit::ServiceCall& call) {
+    const mat3 accel_from_camera = glm::transpose(grid.frame.camera_from_accel);
+    auto triple_of = [&](int row, int lane) {
+        return vec3(along_argument(call, row)[lane], along_argument(call, row + 1)[lane],
+                    along_argument(call, row + 2)[lane]);
+    };
+    for (int lane = 0; lane < call.lanes; ++lane) {
+        if (!(call.mask >> lane & 1)) continue;
+        const vec3 D = accel_from_camera * triple_of(kAlong, lane);
+        if (!(glm::dot(D, D) > 0) || !(along_argument(call, kMaterialDensity)[lane] > 0)) continue;
+        const size_t point = std::min(size_t(call.first + lane), grid.count() - 1);
+        add_ray(rays, grid, ray_start(grid, point, triple_of(0, lane)), D, kMiss, -1, 0,
+                uint32_t(lane));
+        rays.sees[rays.count - 1] = raytrace::kMaskLamp;
+    }
+}
+
+}  // namespace
+
+void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
+    if (!area_lights_.any()) return;
+    ThreadMemory& memory = making.grid.memory;
+    NestedWavefront batch(memory);
+    raytrace::RayBatch& rays = batch->rays;
+    rays.reserve(kGridPoints);
+    rays.count = 0;
+    add_lamp_rays(rays, making.grid, call);
+    for (int layer = 0; layer < kMostLamps && rays.count > 0; ++layer) {
+        NestedWavefront nested(memory);
+        nested->hits.reserve(kGridPoints);
+        const raytrace::HitBatch& hits =
+            raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskLamp, making.grid.depth + 1,
+                            nested->hits, memory.counters.trace);
+        for (size_t l = 0; l < frame_.lights.lights.size(); ++l)
+            if (area_lights_.find(l) && bindings_.binding(making.grid.look->index, l).seen)
+                lamp_along(making, l, call, rays, hits);
+        for (size_t h = 0; h < hits.count; ++h)
+            raytrace::pass_through(frame_.pose.accel, rays, h, hits, h);
+        rays.count = hits.count;
+        rays.passing = true;
+    }
+    rays.passing = false;
+}
+
+void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& call,
+                              const raytrace::RayBatch& rays, const raytrace::HitBatch& hits) {
+    const uint32_t surface = area_lights_.find(l)->surface;
+    const uint32_t only = frame_.insight.only_light;
+    if (std::count(hits.instance, hits.instance + hits.count, surface) == 0) return;
+    if (only != kNone && only != l) return;
+    AreaKernel kernel(*this, making, l);
+    LightSamples& samples = kernel.samples;
+    std::fill(samples.primitive.begin(), samples.primitive.end(), 0u);
+    std::fill_n(samples.u, samples.primitive.size(), 0.0f);
+    std::fill_n(samples.v, samples.primitive.size(), 0.0f);
+    bool met[jit::kMaxLanes] = {};
+    for (size_t h = 0; h < hits.count; ++h) {
+        const uint32_t lane = rays.slot[hits.ray[h]];
+        if (hits.instance[h] != surface) continue;
+        met[lane] = true;
+        samples.primitive[lane] = hits.primitive[h];
+        samples.u[lane] = hits.u[h];
+        samples.v[lane] = hits.v[h];
+    }
+    frame_.pose.accel.surface_points(making.at.count, samples.instance.data(),
+                                     samples.primitive.data(), samples.u, samples.v,
+                                     samples.on_surface);
+    std::span<float*> out = kernel.run();
+    for (const LightOutputs& own : bindings_.statements(l)) {
+        if (!is_weighed(*making.grid.look, own)) continue;
+        std::span<float> density = kernel.densities(own, out);
+        scale(own, out, padded(making.at.count), [&](size_t i) {
+            if (i >= jit::kMaxLanes || !met[i] || !kernel.may_light(i)) return 0.0f;
+            const float radiance = float(kPi) * density[i];
+            density[i] *= float(kernel.count);
+            return radiance * sample_weight(along_argument(call, kMaterialDensity)[i], density[i],
+                                            along_argument(call, kHeuristic)[i]);
+        });
+        LightOutputs statement = own;
+        std::span<float* const> columns =
+            with_density(statement, out, density, making.grid.memory.arena);
+        make_record(making, statement, bindings_.binding(making.grid.look->index, l), columns, true,
+                    &samples);
+    }
+}
+
+}  // namespace kinora
