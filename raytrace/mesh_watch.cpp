@@ -63,7 +63,7 @@ void add_triangle(const Box& box, float largest, BoxAreas& areas) {
         ++areas.bad_triangles;
 }
 
-constexpr size_t kBlock = 16;  // areas whose sum is a finite float where no triangle is bad
+constexpr size_t kSummedBoxes = 16;  // areas whose sum is a finite float where no triangle is bad
 
 // False, and nothing added, where one of the block's triangles is bad.
 bool add_block(const Samples& samples, size_t first, BoxAreas& areas) {
@@ -71,7 +71,7 @@ bool add_block(const Samples& samples, size_t first, BoxAreas& areas) {
     const float4 most = {l, l, l, l};
     float4 sum = {0, 0, 0, 0};
     int4 good = {-1, -1, -1, -1};
-    for (size_t look = first; look < first + kBlock; ++look) {
+    for (size_t look = first; look < first + kSummedBoxes; ++look) {
         const Box box = samples.box(look);
         good &= (box.a <= most) & (box.b <= most) & (box.c <= most) & (box.low >= -most);
         const float4 e = box.high - box.low;
@@ -84,9 +84,9 @@ bool add_block(const Samples& samples, size_t first, BoxAreas& areas) {
 
 BoxAreas areas_of(const Samples& samples, size_t first, size_t end) {
     BoxAreas areas;
-    for (; first < end; first += kBlock) {
-        const size_t last = std::min(end, first + kBlock);
-        if (last - first == kBlock && add_block(samples, first, areas)) continue;
+    for (; first < end; first += kSummedBoxes) {
+        const size_t last = std::min(end, first + kSummedBoxes);
+        if (last - first == kSummedBoxes && add_block(samples, first, areas)) continue;
         for (size_t look = first; look < last; ++look)
             add_triangle(samples.box(look), samples.largest, areas);
     }
