@@ -10,6 +10,7 @@
 
 #include "raytrace/film.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/kinora/map_worlds.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/scene/description/scene_description.h"
@@ -19,7 +20,7 @@ namespace kinora {
 struct ChosenWorlds {
     std::vector<int> wanted;  // from 0
     // Earlier ones whose displays of these names are looked up by them, or by others of these.
-    std::map<int, std::set<std::string>> maps;
+    MapWorlds maps;
     // Of displays that several of the file's pictures have, wanted or not (display_stem()).
     std::set<std::string> shared_stems;
 };
