@@ -9,6 +9,7 @@
 #include "runtime/kinora/frame_list.h"
 #include "runtime/kinora/kept_maps.h"
 #include "runtime/kinora/open_scene.h"
+#include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/display_files.h"
 #include "runtime/scene/ri/import/film.h"
 #include "runtime/scene/ri/import/import.h"
@@ -55,6 +56,16 @@ bool writes_what_the_file_says(const RenderOptions& options) {
            !options.frame_target.any() && !options.skip_existing;
 }
 
+// Pictures that would have one file.
+void report_passes(const RenderOptions& options, const ChosenWorlds& worlds,
+                   Diagnostics& diagnostics) {
+    if (options.output.empty()) return;
+    const OutputName name(options.output);
+    for (const auto& [number, passes] : worlds.passes)
+        if (passes > 1)
+            diagnostics.report(Code::FRAME_PASSES, Location{}, number, passes, name.file(number));
+}
+
 bool makes_pictures(const RenderOptions& options) {
     return !options.output.empty() || !options.contact_sheet.empty() || options.discard ||
            !options.tradeoff.empty();
@@ -65,9 +76,10 @@ bool makes_pictures(const RenderOptions& options) {
 std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options) {
     FilePictures file(options);
     const std::vector<FilePicture> pictures = file.all();
-    ChosenWorlds chosen{{}, {}, shared_stems(pictures)};
+    ChosenWorlds chosen{{}, {}, {}, shared_stems(pictures)};
     chosen.wanted = options.session && !options.frames ? world_of_session(options, pictures)
                                                        : wanted_of(options, pictures);
+    for (int w : chosen.wanted) ++chosen.passes[pictures[size_t(w)].number];
     if (makes_pictures(options)) chosen.maps = file.maps_for(chosen.wanted);
     if (!chosen.wanted.empty() || pictures.empty()) return chosen;
     std::fprintf(stderr, "kinora-render: error: '%s' has %zu pictures, none of them of --frames\n",
@@ -78,6 +90,7 @@ std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options) {
 bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render) {
     judge_by(options, found);
+    report_passes(options, worlds, found);
     const auto trees = std::make_shared<raytrace::KeptTrees>();
     std::vector<int> read = worlds.wanted;
     for (const auto& [index, names] : worlds.maps) read.push_back(index);

@@ -18,7 +18,8 @@
 namespace kinora {
 
 struct ChosenWorlds {
-    std::vector<int> wanted;  // from 0
+    std::vector<int> wanted;    // from 0
+    std::map<int, int> passes;  // how many of them a frame has, by its number
     // Earlier ones whose displays of these names are looked up by them, or by others of these.
     MapWorlds maps;
     // Of displays that several of the file's pictures have, wanted or not (display_stem()).
