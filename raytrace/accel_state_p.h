@@ -38,7 +38,8 @@ struct GeometryState {
     bool attached = false;  // in the top scene. Instanced: its matrix has an inverse
     uint32_t slot = 0;
     // Deforming
-    std::vector<uint32_t> kept;  // without_untraceable(), as Embree has it; the mesh reads it
+    std::vector<uint32_t> edges;  // shared_edges()
+    std::vector<uint32_t> kept;   // without_untraceable(), as Embree has it; the mesh reads it
     EmbreeMesh mesh;
     BuildQuality quality = BuildQuality::Refit;
     double area_at_build = 0;

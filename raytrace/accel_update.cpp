@@ -138,6 +138,7 @@ void Updater::add_deforming(uint32_t index) {
     GeometryState& row = s.rows[index];
     row.slot = uint32_t(s.map.slots.size());
     s.map.slots.push_back({nullptr, index, row.seen.hide_backfaces});
+    if (row.sound) row.edges = shared_edges(row.seen.triangles);
     find_traceable(row);
     if (!build_deforming(row) || !has_first_pose(row)) return;
     row.mesh.vertices_moved_to(row.seen.built_from);
@@ -175,7 +176,7 @@ void Updater::rebuild(GeometryState& row, BuildQuality quality, double area) {
 bool Updater::find_traceable(GeometryState& row) {
     if (!row.sound) return false;
     std::vector<uint32_t> kept =
-        without_untraceable(row.seen.positions, row.seen.triangles, s.scale);
+        without_untraceable(row.seen.positions, row.seen.triangles, s.scale, row.edges);
     if (kept == row.kept) return false;
     s.background.reset();  // it reads the old ones
     row.kept = std::move(kept);
@@ -204,6 +205,7 @@ bool Updater::update_deforming(uint32_t index, const Geometry& now) {
     if (!same) {
         s.background.reset();  // it is made of the old triangles
         row.sound = sound(now);
+        row.edges = row.sound ? shared_edges(now.triangles) : std::vector<uint32_t>();
     }
     if (find_traceable(row) || !same) {
         build_deforming(row);

@@ -35,6 +35,7 @@ SceneMaker::~SceneMaker() {
     {
         std::lock_guard lock(mutex_);
         quit_ = overtaken_ = true;
+        stop_maps_ = 1;
         order_.reset();
     }
     wanted_.notify_one();
@@ -116,6 +117,7 @@ bool SceneMaker::cancel() {
         return true;
     }
     if (!working_ || !replaces_camera_ || cancelled_) return false;
+    stop_maps_ = 1;
     return cancelled_ = true;
 }
 
@@ -143,6 +145,7 @@ void SceneMaker::run() {
         working_ = true;
         replaces_camera_ = order.replaces_camera;
         cancelled_ = overtaken_ = false;
+        stop_maps_ = 0;
         lock.unlock();
         std::unique_ptr<MadeScene> made = make(order);
         lock.lock();
@@ -226,28 +229,41 @@ void SceneMaker::make(const Order& order, MadeScene& made) {
     made.findings.insert(made.findings.end(), found.begin(), found.end());
 }
 
-// The request with the world block of the frame that is wanted.
-SceneRequest SceneMaker::choose_frame(const Order& order) {
-    SceneRequest request = *order.open;
+// The world block of the frame that is wanted.
+int SceneMaker::choose_frame(const FilmFrames& film, const Order& order) const {
+    const double rate = order.open->fps.value_or(FrameRate{}).value();
+    const size_t frame = order.start ? film.at(order.start->frame(rate)) : film.beginning();
+    return film.frames[frame].world;
+}
+
+std::optional<ImportedScene> SceneMaker::import_frame(const Order& order,
+                                                      Diagnostics& diagnostics) {
+    const std::shared_ptr<FilmReader> film = read_.film;
+    const int before = film->maps_rendered();
+    const int world = choose_frame(*film->film(), order);
+    std::optional<ImportedScene> scene = film->read(world, diagnostics, &stop_maps_);
+    std::lock_guard lock(mutex_);
+    counts_.maps += uint64_t(film->maps_rendered() - before);
+    return scene;
+}
+
+std::optional<ImportedScene> SceneMaker::import(const Order& order, Diagnostics& diagnostics) {
+    const SceneRequest& request = *order.open;
     const bool rib = is_rib(request.scene);
     if (!rib) read_.film.reset();
     if (order.counts && rib)
-        if (FilmFrames film = film_of(request.scene); !film.frames.empty())
-            read_.film = std::make_shared<const FilmFrames>(std::move(film));
-    if (!read_.film) return request;
-    const double rate = request.fps.value_or(FrameRate{}).value();
-    const size_t frame =
-        order.start ? read_.film->at(order.start->frame(rate)) : read_.film->beginning();
-    request.world = read_.film->frames[frame].world;
-    return request;
+        if (auto film = std::make_shared<FilmReader>(request); !film->film()->frames.empty())
+            read_.film = std::move(film);
+    if (read_.film) return import_frame(order, diagnostics);
+    return import_requested(request, diagnostics);
 }
 
 bool SceneMaker::read(const Order& order, MadeScene& made) {
     Diagnostics& diagnostics = *made.diagnostics;
-    const SceneRequest request = choose_frame(order);
+    const SceneRequest& request = *order.open;
     judge_by(request, diagnostics);
     made.error = SceneError::Unreadable;
-    std::optional<ImportedScene> imported = import_requested(request, diagnostics);
+    std::optional<ImportedScene> imported = import(order, diagnostics);
     read_.files.clear();
     for (FileId f = 0; f < diagnostics.files.count(); ++f)
         read_.files.push_back(diagnostics.files.name(f));
@@ -272,7 +288,7 @@ bool SceneMaker::read(const Order& order, MadeScene& made) {
     }
     read_.scene = std::move(imported);
     read_.texts = diagnostics.files;
-    read_.request = request;
+    read_.request = read_.film ? read_.film->request() : request;
     return true;
 }
 
@@ -420,8 +436,8 @@ void SceneMaker::build(const Order& order, MadeScene& made) {
 // The time line has its frames.
 void SceneMaker::add_film(SceneInfo& info) const {
     if (!read_.film) return;
-    const std::vector<FilmFrame>& frames = read_.film->frames;
-    info.film = read_.film;
+    info.film = read_.film->film();
+    const std::vector<FilmFrame>& frames = info.film->frames;
     const auto shown = std::ranges::find(frames, read_.request.world, &FilmFrame::world);
     if (shown != frames.end()) info.film_frame = size_t(shown - frames.begin());
     info.first = frames.front().number;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "runtime/base/stats.h"
+#include "runtime/kinora/film_reader.h"
 #include "runtime/player/shown_scene.h"
 #include "runtime/scene/build/instances/shader_swap.h"
 
@@ -21,6 +22,7 @@ namespace kinora {
 struct MakerCounts {
     uint64_t scenes = 0;   // built
     uint64_t kernels = 0;  // compiled for a scene that stood
+    uint64_t maps = 0;     // rendered, of a film's worlds that later ones look up
 };
 
 // Another scene on its way, or a finer one of the same.
@@ -42,7 +44,8 @@ class SceneMaker {
     // film's frames; nothing: the one that it begins with.
     void open(const SceneRequest& request, SceneEdits edits, bool replaces_camera,
               std::optional<StartTime> start = std::nullopt);
-    // Another frame of the film that was opened last: its file is read again up to there.
+    // Another frame of the film that was opened last: its file is read again up to there, and what
+    // stands keeps its shapes, trees and kernels. Maps that the film makes are kept, too.
     void show_frame(const SceneRequest& request, SceneEdits edits, double frame);
     // Puts these edits on the scene read last: where they change surface shaders and parameters
     // alone, the scene made last gets other kernels; else it is built anew.
@@ -73,7 +76,9 @@ class SceneMaker {
     void make(const Order& order, MadeScene& made);
     bool goes_on(Opening::Step step);  // false: cancelled
     bool read(const Order& order, MadeScene& made);
-    SceneRequest choose_frame(const Order& order);
+    std::optional<ImportedScene> import(const Order& order, Diagnostics& diagnostics);
+    int choose_frame(const FilmFrames& film, const Order& order) const;
+    std::optional<ImportedScene> import_frame(const Order& order, Diagnostics& diagnostics);
     void add_film(SceneInfo& info) const;
     bool swap(const Order& order, MadeScene& made);
     void build(const Order& order, MadeScene& made);
@@ -97,12 +102,13 @@ class SceneMaker {
     Opening::Step step_ = Opening::Step::None;
     Stopwatch began_;
     std::atomic<bool> overtaken_{false};  // a finer scene in work, by another order
+    std::atomic<int> stop_maps_{0};       // the order in work is cancelled
 
     // What reading a file leaves.
     struct AsRead {
         std::optional<ImportedScene> scene;
         SceneRequest request;
-        std::shared_ptr<const FilmFrames> film;  // null: a scene of one picture
+        std::shared_ptr<FilmReader> film;  // null: a scene of one picture
         std::vector<std::string> files;
         SourceFiles texts;
         std::vector<BrokenShader> broken;

@@ -7,8 +7,9 @@
 #include "raytrace/kept_trees.h"
 #include "runtime/base/stats.h"
 #include "runtime/kinora/frame_list.h"
+#include "runtime/kinora/kept_maps.h"
 #include "runtime/kinora/open_scene.h"
-#include "runtime/programs/render/kept_maps.h"
+#include "runtime/scene/description/findings.h"
 #include "runtime/scene/images/display_files.h"
 #include "runtime/scene/ri/import/film.h"
 #include "runtime/scene/ri/import/import.h"
@@ -17,12 +18,6 @@
 namespace kinora {
 
 namespace {
-
-std::vector<FilePicture> pictures_of(const RenderOptions& options) {
-    std::vector<FilePicture> pictures;
-    for_each_world(options.scene, [&](const FilePicture& picture) { pictures.push_back(picture); });
-    return pictures;
-}
 
 std::set<std::string> shared_stems(const std::vector<FilePicture>& pictures) {
     std::set<std::string> met, shared;
@@ -36,8 +31,9 @@ std::set<std::string> shared_stems(const std::vector<FilePicture>& pictures) {
 }
 
 // The one that a session shows.
-std::vector<int> world_of_session(const RenderOptions& options) {
-    const FilmFrames film = film_of(options.scene);
+std::vector<int> world_of_session(const RenderOptions& options,
+                                  const std::vector<FilePicture>& pictures) {
+    const FilmFrames film = film_of(pictures);
     if (film.frames.empty()) return {};
     return {film.frames[film.at(options.session->frame)].world};
 }
@@ -54,36 +50,20 @@ std::vector<int> wanted_of(const RenderOptions& options, const std::vector<FileP
     return worlds;
 }
 
-// Of the last world before `w` that has a display of that name; -1: none has.
-int maker_of(const std::vector<FilePicture>& pictures, int w, const std::string& name) {
-    for (int made = w - 1; made >= 0; --made)
-        if (std::ranges::count(pictures[size_t(made)].displays, name, &FileDisplay::name))
-            return made;
-    return -1;
+// Whether what is written for these options is what the file itself would look up.
+bool writes_what_the_file_says(const RenderOptions& options) {
+    return KeptMaps::are_as_the_file_says(options) && !options.session &&
+           !options.frame_target.any() && !options.skip_existing;
 }
 
-// From the last world to the first, so that maps of maps are there, too.
-std::map<int, std::set<std::string>> maps_of(const std::vector<FilePicture>& pictures,
-                                             const std::vector<int>& wanted) {
-    std::map<int, std::set<std::string>> maps;
-    for (int w = int(pictures.size()) - 1; w >= 0; --w) {
-        if (!std::ranges::count(wanted, w) && !maps.contains(w)) continue;
-        for (const std::string& name : pictures[size_t(w)].map_pictures)
-            if (const int made = maker_of(pictures, w, name); made >= 0) maps[made].insert(name);
-    }
-    return maps;
-}
-
-// With shaders, which say what maps they look up, and without anything else.
-std::vector<FilePicture> pictures_with_shaders(const RenderOptions& options) {
-    std::vector<FilePicture> pictures;
-    Diagnostics unheard;  // they come when the worlds themselves are read
-    auto take = [&](SceneDescription&& world) {
-        pictures.push_back(std::move(*world.file_picture));
-        return true;
-    };
-    read_rib(options.scene, import_options(options), unheard, take, {.worlds = {-1}});
-    return pictures;
+// Pictures that would have one file.
+void report_passes(const RenderOptions& options, const ChosenWorlds& worlds,
+                   Diagnostics& diagnostics) {
+    if (options.output.empty()) return;
+    const OutputName name(options.output);
+    for (const auto& [number, passes] : worlds.passes)
+        if (passes > 1)
+            diagnostics.report(Code::FRAME_PASSES, Location{}, number, passes, name.file(number));
 }
 
 bool makes_pictures(const RenderOptions& options) {
@@ -94,12 +74,13 @@ bool makes_pictures(const RenderOptions& options) {
 }  // namespace
 
 std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options) {
-    const std::vector<FilePicture> pictures = pictures_of(options);
-    ChosenWorlds chosen{{}, {}, shared_stems(pictures)};
-    chosen.wanted = options.session && !options.frames ? world_of_session(options)
+    FilePictures file(options);
+    const std::vector<FilePicture> pictures = file.all();
+    ChosenWorlds chosen{{}, {}, {}, shared_stems(pictures)};
+    chosen.wanted = options.session && !options.frames ? world_of_session(options, pictures)
                                                        : wanted_of(options, pictures);
-    if (makes_pictures(options) && !maps_of(pictures, chosen.wanted).empty())
-        chosen.maps = maps_of(pictures_with_shaders(options), chosen.wanted);
+    for (int w : chosen.wanted) ++chosen.passes[pictures[size_t(w)].number];
+    if (makes_pictures(options)) chosen.maps = file.maps_for(chosen.wanted);
     if (!chosen.wanted.empty() || pictures.empty()) return chosen;
     std::fprintf(stderr, "kinora-render: error: '%s' has %zu pictures, none of them of --frames\n",
                  options.scene.c_str(), pictures.size());
@@ -109,6 +90,7 @@ std::optional<ChosenWorlds> worlds_to_render(const RenderOptions& options) {
 bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagnostics& found,
                  const std::function<bool(ReadWorld world)>& render) {
     judge_by(options, found);
+    report_passes(options, worlds, found);
     const auto trees = std::make_shared<raytrace::KeptTrees>();
     std::vector<int> read = worlds.wanted;
     for (const auto& [index, names] : worlds.maps) read.push_back(index);
@@ -127,15 +109,18 @@ bool read_worlds(const RenderOptions& options, const ChosenWorlds& worlds, Diagn
         world.options.world = index;
         world.options.trees = trees;
         world.options.frames = {{int64_t(world.scene.file_picture->number)}};
-        const bool shared = wanted && KeptMaps::are_as_written(world.options);
+        const bool shared = wanted && writes_what_the_file_says(world.options);
         if (map != worlds.maps.end() && shared)
-            world.keep = [&, picture = *world.scene.file_picture](const raytrace::Film& film) {
-                maps.keep(options.scene, picture, map->second, film, found);
+            world.keep = [&, index,
+                          picture = *world.scene.file_picture](const raytrace::Film& film) {
+                maps.keep(options.scene, index, picture, map->second.displays, film, found);
             };
         else if (map != worlds.maps.end())
-            maps.render(world.options, world.scene, found.files, map->second, found);
+            maps.render(world.options, index, world.scene, map->second.displays, found);
         maps.give(world.scene);
         const bool go_on = !wanted || render(std::move(world));
+        for (const auto& [maker, needed] : worlds.maps)
+            if (needed.last_user <= index) maps.free(maker);
         watch.restart();
         return go_on && index != worlds.wanted.back();
     };

@@ -10,6 +10,7 @@
 
 #include "raytrace/film.h"
 #include "runtime/base/diagnostic.h"
+#include "runtime/kinora/map_worlds.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/options.h"
 #include "runtime/scene/description/scene_description.h"
@@ -17,9 +18,10 @@
 namespace kinora {
 
 struct ChosenWorlds {
-    std::vector<int> wanted;  // from 0
+    std::vector<int> wanted;    // from 0
+    std::map<int, int> passes;  // how many of them a frame has, by its number
     // Earlier ones whose displays of these names are looked up by them, or by others of these.
-    std::map<int, std::set<std::string>> maps;
+    MapWorlds maps;
     // Of displays that several of the file's pictures have, wanted or not (display_stem()).
     std::set<std::string> shared_stems;
 };

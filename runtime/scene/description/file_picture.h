@@ -43,6 +43,13 @@ struct DisplayContent {
 };
 DisplayContent content_of(const FileDisplay& display);
 
+// What a display shows of an earlier picture of the file, by the order in the file, from 0.
+struct MapPicture {
+    int world = 0;
+    std::string display;
+    auto operator<=>(const MapPicture&) const = default;
+};
+
 struct FilePicture {
     int number = 0;                 // of the frame, as the file counts
     int width = 640, height = 480;  // pixels that are made: those of the crop window
@@ -56,9 +63,9 @@ struct FilePicture {
     std::vector<float> filter_values;
     Exposure exposure;
     std::vector<FileDisplay> displays;
-    // Names of the pictures that maps are made of which its shaders were given. Where the file was
-    // read for its numbers alone, of all maps made so far.
-    std::vector<std::string> map_pictures;
+    // That the maps are made of which its shaders were given. Where the file was read for its
+    // numbers alone, of all maps made so far.
+    std::vector<MapPicture> map_pictures;
 };
 
 }  // namespace kinora

@@ -4,11 +4,13 @@
 
 #include <string>
 
+#include "runtime/scene/description/file_picture.h"
+
 namespace kinora {
 
-// The name of what a display of the scene at `path` shows.
-inline std::string kept_picture_name(const std::string& path, const std::string& display) {
-    return path + '#' + display;
+// The name of one of the scene at `path`.
+inline std::string kept_picture_name(const std::string& path, const MapPicture& picture) {
+    return path + '#' + picture.display + '#' + std::to_string(picture.world);
 }
 
 }  // namespace kinora

@@ -52,6 +52,32 @@ class Play(ProgramTest):
                     self.assertNotIn("CAMERA_OPTICS", result.err)
             self.check_same(scene, 0)
 
+    def test_maps_of_a_films_earlier_pictures(self):
+        """Each frame looks up a map that it makes itself, under the same name, and one that the first has made."""
+        self.write("paint.sl", 'surface paint(string a = "", b = "";) { Oi = 1; Ci = texture(a, s, t) + texture(b, s, t); }')
+        wall = 'Polygon "P" [-1 -1 3 1 -1 3 1 1 3 -1 1 3] "st" [0 1 1 1 1 0 0 0]\n'
+
+        def world(frame, display, inside):
+            return (f'FrameBegin {frame}\nDisplay "{display}.tif" "file" "rgb"\nWorldBegin\n{inside}WorldEnd\nFrameEnd\n'
+                    f'MakeTexture "{display}.tif" "{display}.tx" "clamp" "clamp" "box" 1 1\n')
+
+        half = 'Polygon "P" [-1 -1 2 0 -1 2 0 1 2 -1 1 2]\n'
+        text = 'Format 32 32 1\n' + world(100, "all", f'Surface "constant" Color .3 0 0 {half}')
+        for frame in (1, 2, 3):
+            text += world(100 + frame, "own", f'Surface "constant" Color 0 {frame / 4} .5 {half}')
+            text += world(frame, "picture", f'Surface "paint" "string a" "all.tx" "string b" "own.tx" {wall}')
+        scene = self.write("scene.rib", text)
+        options = ("--spp", "2", "--threads", "2")
+        self.expect(render(scene, "-o", self.folder / "r.####.png", *options), 0)
+        self.expect(self.play_frames(scene, (3, 1, 2, 1), *options), 0)
+        for frame in (1, 2, 3):
+            self.assertEqual(png.read(self.folder / f"p{frame}.png"), png.read(self.folder / f"r.{frame:04}.png"))
+
+    def play_frames(self, scene, frames, *words):
+        """A screenshot of each, in turn."""
+        lines = "".join(f"seek {frame}\nwait refined\nscreenshot {self.folder}/p{frame}.png\n" for frame in frames)
+        return play(scene, "--headless", "--script", self.write("script.txt", lines), *words)
+
     def test_frames_need_a_token(self):
         self.expect(play(MATTE, "--headless", "--screenshot", self.folder / "a.png", "--frames", "0-1", *SMALL), 2, "####")
         self.expect(play(MATTE, "--headless", "--screenshot", self.folder / "a.##.png", "--frames", "0-1", *SMALL), 0)

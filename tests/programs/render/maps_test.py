@@ -80,6 +80,28 @@ class Maps(ProgramTest):
         self.expect(render(scene, "-o", self.folder / "one/f.####.png", "--frames", "4"), 0)
         self.assertEqual((self.folder / "all/f.0004.png").read_bytes(), (self.folder / "one/f.0004.png").read_bytes())
 
+    def test_a_map_stays_what_it_was_made_of(self):
+        """A later picture has a display of the same name, of which no map is made."""
+        wanted = self.by_hand(("a.png", world(1, "a", FIRST)), ("p.png", made("a") + world(3, "c", looked_up("a.tx"))))
+        outside = 'Surface "paint" "string name" "a.tx"\n'
+        scene = self.write("scene.rib", PICTURE + world(1, "a", FIRST) + made("a") + outside +
+                           world(2, "a", f"{ALL}\n" + constant("1 0 0", LOW)) + world(3, "c", ALL))
+        self.expect(render(scene, "-o", self.folder / "f.####.png"), 0)
+        self.assertEqual(pixels((self.folder / "f.0003.png").read_bytes()), wanted)
+        self.expect(render(scene, "-o", self.folder / "p.png"), 0)
+        self.assertEqual(pixels((self.folder / "p.png").read_bytes()), wanted)
+
+    def test_passes_of_one_frame_are_told(self):
+        passes = world(1, "a", FIRST) + world(1, "b", constant("1 0 0", LOW))
+        scene = self.write("scene.rib", PICTURE + passes)
+        said = render(scene, "-o", self.folder / "f.####.png")
+        self.expect(said, 0, "FRAME_PASSES", "frame 1 has 2 pictures")
+        self.assertEqual(said.err.count("FRAME_PASSES"), 1)
+        last = self.write("last.rib", PICTURE + world(1, "b", constant("1 0 0", LOW)))
+        self.assertNotIn("FRAME_PASSES", render(last, "-o", self.folder / "last.png").err)
+        self.assertEqual(pixels((self.folder / "f.0001.png").read_bytes()),
+                         pixels((self.folder / "last.png").read_bytes()))
+
     def test_the_view_of_the_command_line_is_not_that_of_maps(self):
         self.picture(CHAIN, "p.png", "--size", "8x64", "--exposure", "1")
         scene = self.write("scene.rib", CHAIN)

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "jit/compiler.h"
+#include "runtime/picture/frame/frame.h"
 #include "runtime/player/clock.h"
 #include "runtime/player/scene_maker.h"
 #include "tests/runtime/player/played.h"
@@ -203,6 +205,93 @@ TEST(Film, AFrameThatCannotBeMadeLeavesThePicture) {
     EXPECT_FALSE(played.player.findings().empty());
     EXPECT_EQ(played.script("previous; expect time 1"), "");
     EXPECT_EQ(color_in(played), "r");
+}
+
+// A mesh of 3200 triangles, which a film keeps.
+std::string ground() {
+    std::string text = "PointsPolygons [";
+    for (int k = 0; k < 1600; ++k) text += "4 ";
+    text += "] [";
+    for (int k = 0; k < 1600; ++k) {
+        const int at = k / 40 * 41 + k % 40;
+        text += fmt::format("{} {} {} {} ", at, at + 1, at + 42, at + 41);
+    }
+    text += "] \"P\" [";
+    for (int k = 0; k < 41 * 41; ++k)
+        text += fmt::format("{} {} 0 ", (k % 41 - 20) / 10.0, (k / 41 - 20) / 10.0);
+    return text + "]\n";
+}
+
+// What a scene maker made of a film's frames, in this order.
+struct MadeFrames {
+    int trees_built = 0, trees_kept = 0;
+    size_t kernels = 0;  // compiled, from the second on
+};
+MadeFrames make_frames(const FilmFile& film, const std::vector<double>& frames) {
+    News news;
+    SceneMaker maker(news.bell(), false, false);
+    MadeFrames all;
+    std::unique_ptr<MadeScene> before;
+    size_t first_kernels = 0;
+    for (double frame : frames) {
+        if (before)
+            maker.show_frame(film.request(), {}, frame);
+        else
+            maker.open(film.request(), {}, true, StartTime{frame});
+        std::unique_ptr<MadeScene> made;
+        EXPECT_TRUE(news.await([&] { return (made = maker.take()) != nullptr; }));
+        if (!made->shown) return all;
+        FrameStats stats;
+        EXPECT_TRUE(pose_frame(*made->shown->scene, *made->pose, 0, made->shown->settings, stats,
+                               *made->diagnostics));
+        all.trees_built += stats.rebuilds;
+        all.trees_kept += stats.kept_trees;
+        const size_t kernels = jit::cache_stats().kernels;
+        if (!before) first_kernels = kernels;
+        all.kernels = kernels - first_kernels;
+        before = std::move(made);
+    }
+    return all;
+}
+
+TEST(Film, KeepsTreesAndKernelsFromFrameToFrame) {
+    std::string text = kHead;
+    for (int k = 1; k <= 6; ++k)
+        text += frame(k, fmt::format("Translate 0 {} 5", 0.1 * k), "Surface \"plain\" " + ground());
+    FilmFile film(text);
+    const MadeFrames once = make_frames(film, {1});
+    EXPECT_GT(once.trees_built, 0);
+    EXPECT_EQ(once.trees_kept, 0);
+    const MadeFrames all = make_frames(film, {1, 2, 3, 4, 5, 6, 1, 4});
+    EXPECT_EQ(all.trees_built, once.trees_built);
+    EXPECT_EQ(all.trees_kept, 7 * once.trees_built);
+    EXPECT_EQ(all.kernels, 0u);
+}
+
+TEST(Film, MakesMapsOfEarlierWorldsOnce) {
+    const std::string made = "MakeTexture \"map.tif\" \"map.tx\" \"clamp\" \"clamp\" \"box\" 1 1\n";
+    const std::string wall =
+        "Surface \"mapped\" \"map\" \"map.tx\" Polygon \"P\" [-2 -2 1 2 -2 1 2 2 1 -2 2 1] \"st\" "
+        "[0 1 1 1 1 0 0 0]";
+    std::string text = kHead +
+                       frame(1, "Display \"map.tif\" \"file\" \"rgb\" Translate 0 0 5",
+                             "Color [0 1 0] Surface \"constant\"") +
+                       made;
+    for (int k = 2; k <= 5; ++k)
+        text += fmt::format(
+            "FrameBegin {}\nTranslate 0 0 3\nWorldBegin Color [1 {} 1] {}\nWorldEnd\nFrameEnd\n", k,
+            k % 2, wall);
+    FilmFile film(text);
+    write(std::filesystem::path(film.path()).parent_path() / "mapped.sl",
+          "surface mapped(string map = \"\";) { Ci = Cs * color texture(map, s, t); Oi = 1; }");
+    Played played(film.request());
+    EXPECT_EQ(played.script("seek 3"), "");
+    EXPECT_EQ(color_in(played), "g");
+    EXPECT_EQ(played.script("next; wait refined"), "");
+    EXPECT_EQ(color_in(played), "black");
+    EXPECT_EQ(played.script("next; wait refined; previous; wait refined; last; wait refined"), "");
+    EXPECT_EQ(color_in(played), "g");
+    EXPECT_EQ(played.player.made().maps, 1u);
 }
 
 TEST(Film, BeginsAtAFrameOrATime) {

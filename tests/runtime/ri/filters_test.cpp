@@ -54,8 +54,8 @@ TEST(RiFilters, OfProgramsAreCalledWhenTheyAreGiven) {
     EXPECT_EQ(r.diagnostics.findings().size(), 0u);
 }
 
-TEST(RiFilters, WithoutASumAreReported) {
-    for (RtFilterFunc filter : {nothing, endless}) {
+TEST(RiFilters, WithoutASumAreReportedAndSoIsNone) {
+    for (RtFilterFunc filter : {nothing, endless, RtFilterFunc(nullptr)}) {
         const Filtered r(filter);
         ASSERT_EQ(r.diagnostics.findings().size(), 1u);
         EXPECT_STREQ(r.diagnostics.findings()[0].info->code, "RI_RANGE");

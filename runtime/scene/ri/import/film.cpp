@@ -31,17 +31,21 @@ size_t FilmFrames::beginning() const {
                                  : size_t(first - frames.begin());
 }
 
-FilmFrames film_of(const SceneSource& source) {
+FilmFrames film_of(std::span<const FilePicture> pictures) {
     std::map<int, FilmFrame> by_number;
     int world = 0;
-    for_each_world(source, [&](const FilePicture& picture) {
+    for (const FilePicture& picture : pictures) {
         const FilmFrame frame{picture.number, world++, shows_colors(picture.displays)};
         const auto [known, is_new] = by_number.try_emplace(frame.number, frame);
         if (!is_new && (frame.colors || !known->second.colors)) known->second = frame;
-    });
+    }
     FilmFrames film;
     for (const auto& [number, frame] : by_number) film.frames.push_back(frame);
     return film;
+}
+
+FilmFrames film_of(const SceneSource& source) {
+    return film_of(pictures_of(source));
 }
 
 }  // namespace kinora

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "runtime/scene/description/file_picture.h"
 #include "runtime/scene/description/scene_source.h"
 
 namespace kinora {
@@ -25,6 +27,7 @@ struct FilmFrames {
 
 // Worlds of one number are passes of a frame: its picture is the last that shows colors, else the
 // last. No frames: the file has no pictures or cannot be read.
+FilmFrames film_of(std::span<const FilePicture> pictures);
 FilmFrames film_of(const SceneSource& source);
 
 }  // namespace kinora

@@ -53,39 +53,44 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
     return sound;
 }
 
-void for_each_world(const SceneSource& source,
-                    const std::function<void(const FilePicture& picture)>& take) {
+std::vector<FilePicture> pictures_of(const SceneSource& source) {
+    std::vector<FilePicture> pictures;
     Diagnostics unheard;  // they come when the world itself is read
     auto count = [&](SceneDescription&& world) {
-        take(*world.file_picture);
+        pictures.push_back(std::move(*world.file_picture));
         return true;
     };
     read_rib(source, {}, unheard, count, {.counts_alone = true, .worlds = {}});
+    return pictures;
 }
 
 std::vector<int> worlds_of(const SceneSource& source) {
     std::vector<int> numbers;
-    for_each_world(source, [&](const FilePicture& picture) { numbers.push_back(picture.number); });
+    for (const FilePicture& picture : pictures_of(source)) numbers.push_back(picture.number);
     return numbers;
 }
 
 std::optional<SceneDescription> import_rib(const SceneSource& source, const ImportOptions& options,
-                                           Diagnostics& diagnostics) {
+                                           Diagnostics& diagnostics, const EarlierWorlds& earlier) {
     const int wanted =
         options.world < 0 ? std::max(int(worlds_of(source).size()) - 1, 0) : options.world;
     std::optional<SceneDescription> found;
     int seen = 0;
+    ri::WorldChoice drawn{.worlds = earlier.worlds, .meshes = earlier.meshes};
+    drawn.worlds.push_back(wanted);
     auto take = [&](SceneDescription&& world) {
-        found = std::move(world);
+        if (seen == wanted)
+            found = std::move(world);
+        else if (drawn.draws(seen))
+            earlier.take(seen, std::move(world));
         return ++seen <= wanted;
     };
-    const bool sound = read_rib(source, options, diagnostics, take, {.worlds = {wanted}});
+    const bool sound = read_rib(source, options, diagnostics, take, drawn);
     if (sound && seen <= wanted) {
         if (seen)
             diagnostics.report(Code::RIB_WORLD_UNKNOWN, Location{}, wanted + 1, seen);
         else
             diagnostics.report(Code::RIB_NO_WORLD, Location{}, source.path);
-        found.reset();
     }
     if (found) merge_meshes(*found);
     return found;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,14 +25,20 @@ bool read_rib(const SceneSource& source, const ImportOptions& options, Diagnosti
               ri::WorldChoice drawn = {});
 
 // The picture of each world block, in order. Nothing is drawn, and nothing is found.
-void for_each_world(const SceneSource& source,
-                    const std::function<void(const FilePicture& picture)>& take);
+std::vector<FilePicture> pictures_of(const SceneSource& source);
 // Their frame numbers.
 std::vector<int> worlds_of(const SceneSource& source);
 
+// Worlds that are drawn before the one that is wanted, and who gets them.
+struct EarlierWorlds {
+    std::vector<int> worlds;
+    std::function<void(int world, SceneDescription&& scene)> take;
+    std::shared_ptr<ri::MeshStore> meshes = {};  // WorldChoice::meshes
+};
 // The world block ImportOptions::world. Nothing: there is none, or the file
 // cannot be read; findings say why.
 std::optional<SceneDescription> import_rib(const SceneSource& source, const ImportOptions& options,
-                                           Diagnostics& diagnostics);
+                                           Diagnostics& diagnostics,
+                                           const EarlierWorlds& earlier = {});
 
 }  // namespace kinora

@@ -91,7 +91,7 @@ void Interpreter::world_begin(const Call& call) {
     state_.camera_from_world = state_.transform;
     state_.transform = dmat4(1.0);
     ++worlds_;
-    meshes_.begin_world();
+    if (drawn_.draws(worlds_ - 1)) meshes_->begin_world();
     shaders_.begin_world();
     state_.world = std::make_unique<World>(state_.options, state_.path, state_.import,
                                            state_.camera_from_world, state_.frame.value_or(worlds_),
@@ -108,7 +108,7 @@ void Interpreter::close_world() {
     std::unique_ptr<World> world = std::move(state_.world);
     state_.camera_from_world = dmat4(1.0);
     SceneDescription made = world->take(state_.spaces);
-    made.file_picture->map_pictures = shaders_.end_world(drawn_.counts_alone);
+    shaders_.end_world(worlds_ - 1, drawn_.counts_alone, *made.file_picture);
     host_.take_world(std::move(made));
 }
 

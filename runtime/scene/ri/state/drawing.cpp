@@ -113,10 +113,10 @@ std::optional<MeshDefinition> Interpreter::kept_mesh(const MeshKey& key, const C
     constexpr size_t kMostTriangles = 500'000;  // whatever else is there
     const bool costly = state_.frame && !is_polygon(call.request);
     if (costly)
-        if (auto kept = meshes_.find(key)) return *kept;
+        if (auto kept = meshes_->find(key)) return *kept;
     std::optional<MeshDefinition> mesh =
         mesh_of_call(call, scale, {state_.world->limits().error, kMostTriangles});
-    if (costly && mesh) meshes_.keep(key, *mesh);
+    if (costly && mesh) meshes_->keep(key, *mesh);
     return mesh;
 }
 

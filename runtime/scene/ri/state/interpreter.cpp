@@ -78,6 +78,7 @@ Interpreter::Interpreter(std::string path, const ImportOptions& options, WorldCh
       options_(state_, report_, shaders_),
       attributes_(state_, report_),
       transforms_(state_, report_),
+      meshes_(drawn_.meshes ? drawn_.meshes : std::make_shared<MeshStore>()),
       branches_(state_, report_) {}
 
 Interpreter::~Interpreter() = default;

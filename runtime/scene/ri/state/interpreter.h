@@ -92,7 +92,7 @@ class Interpreter : public CallSink {
     OptionCalls options_;
     AttributeCalls attributes_;
     TransformCalls transforms_;
-    MeshStore meshes_;
+    const std::shared_ptr<MeshStore> meshes_;
     Branches branches_;
     int worlds_ = 0;
 

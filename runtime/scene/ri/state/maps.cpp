@@ -81,22 +81,32 @@ std::string ShaderCalls::picture_file(const std::string& name, bool any_suffix) 
     return "";
 }
 
-std::vector<std::string> ShaderCalls::end_world(bool all_maps) {
-    std::set<std::string> pictures = std::exchange(used_, outside_);
-    for (const auto& [name, map] : maps_)
-        if (all_maps && map.six)
-            pictures.insert(map.six->faces.begin(), map.six->faces.end());
-        else if (all_maps)
-            pictures.insert(map.one.path);
-    return {pictures.begin(), pictures.end()};
+// Notes it where an earlier world of the file has made it. Null: none has.
+const MapPicture* ShaderCalls::use_picture(const std::string& picture) {
+    const auto maker = makers_.find(picture);
+    if (maker == makers_.end()) return nullptr;
+    return &*used_.insert({maker->second, picture}).first;
+}
+
+void ShaderCalls::end_world(int world, bool all_maps, FilePicture& picture) {
+    if (all_maps)
+        for (const auto& [name, map] : maps_) {
+            use_picture(map.one.path);
+            if (map.six)
+                for (const std::string& face : map.six->faces) use_picture(face);
+        }
+    const std::set<MapPicture> used = std::exchange(used_, outside_);
+    picture.map_pictures.assign(used.begin(), used.end());
+    for (const FileDisplay& display : picture.displays) makers_[display.name] = world;
 }
 
 // One that an earlier world of the file has made for this, else a file. Displays are written as PNG
 // or EXR, whatever suffix their names have.
 std::string ShaderCalls::made_picture(const std::string& picture) {
-    used_.insert(picture);
-    const std::string kept = kept_picture_name(state_.path, picture);
-    if (is_memory_file(kept)) return kept;
+    if (const MapPicture* made = use_picture(picture)) {
+        const std::string kept = kept_picture_name(state_.path, *made);
+        if (is_memory_file(kept)) return kept;
+    }
     std::string file = picture_file(picture, true);
     return file.empty() ? picture : file;
 }

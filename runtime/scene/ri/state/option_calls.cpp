@@ -165,6 +165,8 @@ void OptionCalls::pixel_filter(const Call& call) {
         return report_.add(Code::RI_RANGE, "PixelFilter", "a width is not above 0");
     const std::string name(call.arguments[0].string());
     auto own = reinterpret_cast<RtFilterFunc>(call.arguments[0].function());
+    if (!own && name.empty())
+        return report_.add(Code::RI_RANGE, "PixelFilter", "there is no filter function");
     const bool is_ours = std::ranges::count(kSeparable, name) > 0 && width == height;
     const RtFilterFunc function = own ? own : is_ours ? nullptr : filter_function(name);
     std::vector<float> values;

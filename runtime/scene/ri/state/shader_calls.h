@@ -20,10 +20,10 @@ class ShaderCalls {
     // shader, or of one that does nothing.
     Binding bind(const Call& call, size_t name_at, std::string_view kind);
     std::shared_ptr<const rsl::Shader> find(std::string_view name);
-    // A world begins, or ends: then the pictures of the maps that its shaders were given, or of
-    // all that were made.
+    // A world begins, or ends: then `picture` gets the pictures of the maps that its shaders were
+    // given, or of all that were made. Later maps may be made of its displays.
     void begin_world() { outside_ = used_; }
-    std::vector<std::string> end_world(bool all_maps);
+    void end_world(int world, bool all_maps, FilePicture& picture);
     // Where files of a kind are looked for ("shader", "texture", "archive"), "" or ending in '/'.
     std::vector<std::string> folders(std::string_view kind) const;
 
@@ -46,6 +46,7 @@ class ShaderCalls {
                          const rsl::Shader& shader);
     std::string picture_file(const std::string& name, bool any_suffix) const;
     std::string made_picture(const std::string& picture);
+    const MapPicture* use_picture(const std::string& picture);
 
     State& state_;
     StateReport& report_;
@@ -59,7 +60,8 @@ class ShaderCalls {
     };
     std::map<std::string, MadeMap, std::less<>> maps_;
     std::set<std::string, std::less<>> shadows_;  // that it makes
-    std::set<std::string> used_, outside_;        // pictures of maps: in all, before the world
+    std::map<std::string, int> makers_;           // the last world that has a display of the name
+    std::set<MapPicture> used_, outside_;         // of maps: in all, before the world
 };
 
 }  // namespace kinora::ri
