@@ -52,6 +52,7 @@ struct RayCall {
     int label = -1;          // the row of the rays' label; below 0: they have none
     bool distances = false;  // rays that find what passes find the nearest surface, too
     bool diffuse = false;    // they find light that a point gets from all around
+    bool counted = false;    // the point has the specular light of its lights by their samples
 };
 
 // Adds the rays of samples, whose slots count up from `slot`; none for those that see nothing.
