@@ -127,6 +127,10 @@ surface gltf_pbr(
     float F90 = mix(specular, 1, metal);
     color under = base * (1 - metal);
     color light = 0;
+    /* A cone about as wide as the lobe; the rougher, the more the ambient light will do. */
+    float clear = 0;
+    if (mirrors != 0)
+        clear = 1 - smoothstep(0.25, 0.5, rough);
     illuminance(P, Nf, PI / 2) {
         vector Ln = normalize(L);
         vector H = normalize(Ln + V);
@@ -145,6 +149,12 @@ surface gltf_pbr(
             color layer = F * D * G;
             if (broad > 0)
                 layer = mix(layer, reflected_everywhere(F0, F90, rough, NV), broad);
+            /* What lies around the scene is seen by the rays of smooth surfaces. */
+            if (mirrors != 0) {
+                float around_scene = 0;
+                lightsource("__environment", around_scene);
+                layer *= 1 - around_scene * clear;
+            }
             light += Cl * NL * ((1 - F) * under + layer);
         }
     }
@@ -155,17 +165,13 @@ surface gltf_pbr(
                    occlusion_strength);
     light += open * around * under;
     color seen = open * around;
-    if (mirrors != 0) {
-        /* A cone about as wide as the lobe; the rougher, the more the ambient light will do. */
-        float clear = 1 - smoothstep(0.25, 0.5, rough);
-        if (clear > 0) {
-            color hit = 0, mirrored = 0;
-            gather("illuminance", P, reflect(-V, Nf), rough * rough, 1, "surface:Ci", hit)
-                mirrored += hit;
-            else
-                mirrored += around;
-            seen = mix(seen, mirrored, clear);
-        }
+    if (mirrors != 0 && clear > 0) {
+        color hit = 0, mirrored = 0;
+        gather("illuminance", P, reflect(-V, Nf), rough * rough, 1, "surface:Ci", hit)
+            mirrored += hit;
+        else
+            mirrored += around;
+        seen = mix(seen, mirrored, clear);
     }
     light += seen * reflected_everywhere(F0, F90, rough, NV);
     color glow = emissive;

@@ -152,6 +152,7 @@ void read_visual_scene(Extraction& x, Link scene) {
     read_pending_nodes(x);
     read_evaluated_camera(x, scene);
     x.scene.rsl_materials = rsl_extra_materials(x, scene);
+    read_environment(x, scene);
     read_time_range(x, scene);
 }
 

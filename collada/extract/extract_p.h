@@ -209,6 +209,8 @@ std::string_view authoring_tool(const Document& document);
 inline constexpr int kBlenderWatts = 280;
 std::optional<int> blender_version(std::string_view tool);
 void read_time_range(Extraction& x, Link visual_scene);
+// What lies around it.
+void read_environment(Extraction& x, Link visual_scene);
 
 // images.cpp -------------------------------------------------------------------------------
 

@@ -193,6 +193,16 @@ struct Light {
 
 // --- the whole -----------------------------------------------------------------------------------
 
+// What lies around the visual scene: a picture of latitudes and longitudes times a color.
+struct Environment {
+    uint32_t image = kNone;  // kNone: the color alone
+    std::array<double, 3> color = {1, 1, 1};
+    double rotation = 0;  // degrees about the up axis, counterclockwise as seen from above
+    double brightness = 1;
+    bool hidden = false;  // behind the picture
+    Location where;
+};
+
 struct SourceDocument {
     std::string path;
     Asset asset;
@@ -205,6 +215,7 @@ struct SceneData {
     std::string scene_id, scene_name;
     std::vector<uint32_t> roots;                     // nodes of the visual scene
     std::vector<uint32_t> rsl_materials;             // the visual scene's <extra> RSL effects
+    std::optional<Environment> environment;          // of its <extra>
     uint32_t camera_node = kNone;                    // of <evaluate_scene><render camera_node>
     std::vector<std::shared_ptr<const void>> files;  // embedded images live as long as these
 

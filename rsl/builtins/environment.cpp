@@ -45,7 +45,7 @@ void trace_environment(LowerCall& c) {
                       Service::trace,
                       std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2],
                                  c.pair("maxdist", 1e30f), c.pair("bias", -1), c.pair("samples", 1),
-                                 c.pair("blur", 0), c.b.i(0), c.b.f(-1), c.b.f(-1)}));
+                                 c.pair("blur", 0), c.b.i(0), c.b.f(-1), c.b.f(-1), c.b.i(0)}));
 }
 
 // The footprint's sides are those along u and v: maps of directions and depths have no s and t.
@@ -180,7 +180,7 @@ void environment(RefCall<Real>& c) {
         add_triple(args, middle(c));
         for (double x :
              {double(c.pair("maxdist", Real(1e30)).x), double(c.pair("bias", -1).x),
-              double(c.pair("samples", 1).x), double(c.pair("blur", 0).x), 0.0, -1.0, -1.0})
+              double(c.pair("samples", 1).x), double(c.pair("blur", 0).x), 0.0, -1.0, -1.0, 0.0})
             args.push_back(x);
         return set_from(c, c.eval.service(Service::trace, args));
     }

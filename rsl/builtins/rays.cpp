@@ -41,7 +41,7 @@ void trace(LowerCall& c) {
         Service::trace,
         std::array{seed[0], seed[1], P[0], P[1], P[2], R[0], R[1], R[2], c.pair("maxdist", kFar),
                    c.pair("bias", -1), samples(c, 1), c.pair("samplecone", 0), c.text_pair("label"),
-                   c.largest_pair("weight", -1), through(c)});
+                   c.largest_pair("weight", -1), through(c), c.b.i(0)});
     if (c.result_type() == BaseType::Float)
         c.set(hit[3]);
     else
@@ -84,7 +84,7 @@ template <class Real>
 void trace(RefCall<Real>& c) {
     std::vector<double> args = seeded(c, 0, 2);
     for (double x : {pair(c, "maxdist", 1e30), pair(c, "bias", -1), pair(c, "samples", 1),
-                     pair(c, "samplecone", 0), pair(c, "label", 0), -1.0, -1.0})
+                     pair(c, "samplecone", 0), pair(c, "label", 0), -1.0, -1.0, 0.0})
         args.push_back(x);
     set_from(c, c.eval.service(Service::trace, args), c.result.type == BaseType::Float ? 3 : 0);
 }

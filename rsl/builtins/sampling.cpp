@@ -1,5 +1,5 @@
 // rsl/builtins/sampling.cpp: what integrators ask of lights with sample methods, and what those ask
-// and answer. Our own headers call these (integrators.h, lightsamples.h).
+// and answer. Our own headers call these (integrators.h, lightsamples.h); maps are for any light.
 #include <fmt/format.h>
 
 #include "rsl/builtins/table.h"
@@ -47,6 +47,19 @@ void samplinglights(LowerCall& c) {
                                                                        D[2], c.f(1), c.f(2)})[0]));
 }
 
+// As trace(P, D, "maxdist", x), with what the surface has by directlighting().
+void tracesample(LowerCall& c) {
+    if (!c.context.options.want_Ci) return;
+    auto& b = c.b;
+    V3 P = c.globals.read(Global::P).v3(), D = c.v3(0);
+    auto seed = c.seeds.sample(c.call.site);
+    Value counted = b.select(b.eq(c.f(2), b.f(0)), b.i(0), b.i(1));
+    auto seen = c.services.call(
+        Service::trace, std::array{seed[0], seed[1], P[0], P[1], P[2], D[0], D[1], D[2], c.f(1),
+                                   b.f(-1), c.f(3), b.f(0), b.i(0), b.f(-1), b.f(-1), counted});
+    c.set(V3{seen[0], seen[1], seen[2]});
+}
+
 void misheuristic(LowerCall& c) {
     auto& b = c.b;
     Value name = c.args[0].c[0], power = b.f(kUsualPower), known = b.m(false);
@@ -82,6 +95,26 @@ void samplewishdomain(LowerCall& c) {
     c.set(wish(c)[4]);
 }
 
+// ---- maps
+
+void mapdirection(LowerCall& c) {
+    std::vector<Value> found =
+        c.services.call(Service::mapdirection, std::array{c.f(0), c.f(1), c.f(2)});
+    c.set_output(3, lowered(BaseType::Float, found[3]));
+    c.set(V3{found[0], found[1], found[2]});
+}
+std::vector<Value> light_of_map(LowerCall& c) {
+    V3 D = c.v3(1);
+    return c.services.call(Service::maplight, std::array{c.f(0), D[0], D[1], D[2]});
+}
+void mapdensity(LowerCall& c) {
+    c.set(light_of_map(c)[3]);
+}
+void maplight(LowerCall& c) {
+    std::vector<Value> light = light_of_map(c);
+    c.set(V3{light[0], light[1], light[2]});
+}
+
 void lightsample(LowerCall& c) {
     V3 D = c.v3(0), Cl = c.v3(2);
     c.services.call(Service::lightsample,
@@ -112,6 +145,17 @@ void samplinglights(RefCall<Real>& c) {
     set_from(c, c.eval.service(Service::samplinglights, args));
 }
 template <class Real>
+void tracesample(RefCall<Real>& c) {
+    std::vector<double> args = {0, 0};
+    add(args, c.eval.kernel_value(Global::P));
+    add(args, c.args[0]);
+    add(args, c.args[1]);
+    args.push_back(-1);
+    add(args, c.args[3]);
+    for (double x : {0.0, 0.0, -1.0, -1.0, double(c.args[2].c[0].x != 0)}) args.push_back(x);
+    set_from(c, c.eval.service(Service::trace, args));
+}
+template <class Real>
 void misheuristic(RefCall<Real>& c) {
     float power = 0;
     for (const Heuristic& row : kHeuristics)
@@ -134,6 +178,28 @@ void samplewishdirection(RefCall<Real>& c) {
 template <class Real>
 void samplewishdomain(RefCall<Real>& c) {
     set_from(c, c.eval.service(Service::samplewish, {0}), 4);
+}
+template <class Real>
+void mapdirection(RefCall<Real>& c) {
+    std::vector<double> args;
+    for (size_t k = 0; k < 3; ++k) add(args, c.args[k]);
+    const std::vector<double> found = c.eval.service(Service::mapdirection, args);
+    c.args[3].c[0] = Dual<Real>(Real(at(found, 3)));
+    set_from(c, found);
+}
+template <class Real>
+std::vector<double> light_of_map(RefCall<Real>& c) {
+    std::vector<double> args;
+    for (size_t k = 0; k < 2; ++k) add(args, c.args[k]);
+    return c.eval.service(Service::maplight, args);
+}
+template <class Real>
+void mapdensity(RefCall<Real>& c) {
+    set_from(c, light_of_map(c), 3);
+}
+template <class Real>
+void maplight(RefCall<Real>& c) {
+    set_from(c, light_of_map(c));
 }
 template <class Real>
 void lightsample(RefCall<Real>& c) {
@@ -163,6 +229,12 @@ const Builtin kRows[] = {
      "What lights with sample methods send from a direction, for illuminance: samplinglights("
      "direction, density, power).",
      kSurface},
+    {"tracesample", "c=vfff", lower::tracesample, KINORA_RSL_REF(ref::tracesample),
+     kService | kTraces | kVaryingResult | kForHeaders, 0,
+     "What a ray from P sees: tracesample(direction, maxdist, counted, samples); counted: "
+     "directlighting() gives the specular light of the lights; samples: this one is one of so "
+     "many.",
+     kSurface | kVolume},
     {"misheuristic", "f=s", lower::misheuristic, KINORA_RSL_REF(ref::misheuristic), kForHeaders, 0,
      "The power of a heuristic."},
     {"samplingdomain", "f=s", lower::samplingdomain, KINORA_RSL_REF(ref::samplingdomain),
@@ -174,6 +246,16 @@ const Builtin kRows[] = {
      "The direction that it is asked for."},
     {"samplewishdomain", "s=", lower::samplewishdomain, KINORA_RSL_REF(ref::samplewishdomain),
      kService | kForHeaders, 0, "The integration domain: hemisphere or sphere."},
+    {"mapdirection", "v=sffF", lower::mapdirection, KINORA_RSL_REF(ref::mapdirection),
+     kService | kNamesFile, 0,
+     "Two numbers in [0, 1) to a direction as dense as an environment map is bright, in the map's "
+     "space: mapdirection(map, x, y, density). The density is by solid angle, 0 where the map is "
+     "black. A map \"\" is white."},
+    {"mapdensity", "f=sv", lower::mapdensity, KINORA_RSL_REF(ref::mapdensity),
+     kService | kNamesFile, 0, "How dense mapdirection() is about a direction in the map's space."},
+    {"maplight", "c=sv", lower::maplight, KINORA_RSL_REF(ref::maplight), kService | kNamesFile, 0,
+     "Light of an environment map along a direction in the map's space, between its four nearest "
+     "texels. A map \"\" is white; texels that are no numbers, or below 0, send nothing."},
     {"lightsample", "f=vfcff", lower::lightsample, KINORA_RSL_REF(ref::lightsample),
      kService | kPrints | kSendsSamples | kForHeaders, 0,
      "One sample of a light: lightsample(direction, distance, radiance, pdf, count)."},

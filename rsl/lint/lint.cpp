@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "rsl/lint/lint_p.h"
+#include "rsl/model/builtin.h"
 #include "rsl/text/findings.h"
 
 namespace kinora::rsl {
@@ -13,8 +14,11 @@ namespace {
 
 void lint_lights(LintSource& source) {
     for (const auto& shader : source.shaders) {
-        bool lights = std::any_of(shader->globals_written.begin(), shader->globals_written.end(),
-                                  [](const GlobalInfo* info) { return info->id == Global::Cl; });
+        const bool lights =
+            std::any_of(shader->globals_written.begin(), shader->globals_written.end(),
+                        [](const GlobalInfo* info) { return info->id == Global::Cl; }) ||
+            std::any_of(shader->functions.begin(), shader->functions.end(),
+                        [](const Function* f) { return is_sample_method(f->name); });
         if (shader->kind == ShaderKind::Light && !lights)
             source.reporter.report(Code::RSL_DARK_LIGHT, shader->definition->span, shader->name);
     }

@@ -96,19 +96,18 @@ class ClassIntegrators {
           functions_(functions) {}
 
     void run() {
-        std::vector<CallExpr*> calls;
         list_handles();
-        for (Function* method : class_.methods) {
-            calls.clear();
-            auto collect = [&](Expr& e) {
-                if (auto* call = as_if<CallExpr>(&e)) calls.push_back(call);
-            };
-            each_expr(static_cast<Stmt*>(method->body), collect);
-            for (CallExpr* call : calls)
+        has_specular_light_ = std::ranges::any_of(class_.methods, [&](Function* method) {
+            return method->name != "diffuselighting" &&
+                   std::ranges::any_of(calls_of(*method), [](const CallExpr* call) {
+                       return call->name == kIntegrators[0].name && !call->method;
+                   });
+        });
+        for (Function* method : class_.methods)
+            for (CallExpr* call : calls_of(*method))
                 for (const Integrator& row : kIntegrators)
                     if (row.name == call->name && !call->method && !bind(row, *call, method->name))
                         call->args = {};  // reported
-        }
         if (!names_.empty()) adopt();
     }
 
@@ -119,6 +118,14 @@ class ClassIntegrators {
         return reporter_.report(info, span.where, token.macro, token.spelling, args...);
     }
 
+    static std::vector<CallExpr*> calls_of(const Function& method) {
+        std::vector<CallExpr*> calls;
+        auto collect = [&](Expr& e) {
+            if (auto* call = as_if<CallExpr>(&e)) calls.push_back(call);
+        };
+        each_expr(static_cast<Stmt*>(method.body), collect);
+        return calls;
+    }
     bool has(std::string_view method) const { return has_sample_method(class_, method); }
 
     // Whether the expression is of type shader.
@@ -202,6 +209,7 @@ class ClassIntegrators {
         } else {
             args.push_back(make.call(row.name, given.hints));
             args.push_back(given.maxdist ? given.maxdist : make.number(1e30));
+            args.push_back(make.number(has_specular_light_));
         }
         if (keeps) args.push_back(given.samples);
         const bool none = direct && own && !has("generateSamples");
@@ -396,6 +404,7 @@ class ClassIntegrators {
     std::map<std::string_view, std::string_view> names_;  // of functions that are called
     std::set<std::string_view> handles_, lists_;          // variables of type shader, and shader[]
     std::set<std::string_view> open_;                     // resizable arrays
+    bool has_specular_light_ = false;  // directlighting() gives it that of the lights
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/description/play_range.h"
 #include "runtime/scene/load/import_scene.h"
+#include "runtime/scene/load/override_environment.h"
 #include "runtime/scene/load/override_scene.h"
 #include "runtime/scene/load/override_shader.h"
 #include "runtime/scene/ri/import/import.h"
@@ -70,6 +71,7 @@ void change(SceneDescription& description, const SceneRequest& request, Diagnost
     }
     for (const auto& [pattern, file] : request.shaders)
         override_shader(description, pattern, {file, request.include_directories}, diagnostics);
+    override_environment(description, request.environment, diagnostics);
     if (!request.atmosphere.empty())
         override_atmosphere(description, {request.atmosphere, request.include_directories},
                             diagnostics);

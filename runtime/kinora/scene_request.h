@@ -11,6 +11,7 @@
 #include "runtime/kinora/frame_list.h"
 #include "runtime/scene/description/import_options.h"
 #include "runtime/scene/images/image_io.h"
+#include "runtime/scene/load/override_environment.h"
 #include "runtime/scene/quality/quality.h"
 #include "runtime/scene/scene_options.h"
 
@@ -37,7 +38,8 @@ struct SceneRequest {
     double filter_width = 0;
     uint32_t seed = 0;
     LightSet lights = LightSet::Auto;
-    uint32_t gi = 0;      // bounces of indirect light, whatever shaders ask for
+    uint32_t gi = 0;  // bounces of indirect light, whatever shaders ask for
+    EnvironmentGiven environment;
     double exposure = 0;  // stops
     bool auto_exposure = false;
     std::optional<vec3> background;

@@ -201,8 +201,10 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
 #undef KINORA_ADD
 
 // The mean over the samples of response / pdf x traced light. A pdf or a direction of 0: no ray.
+// counted: directlighting() gives the specular light of the lights, so these rays do not see it again.
 #define KINORA_INDIRECT(NAME, FORMALS, OF)                                                     \
-    color NAME(FORMALS color hints; float maxdist; output __radiancesample materialsamples[];) { \
+    color NAME(FORMALS color hints; float maxdist; uniform float counted;                      \
+               output __radiancesample materialsamples[];) {                                   \
         if (arraylength(materialsamples) == 0) {                                               \
             OF generateSamples("indirectspecular", materialsamples);                           \
             limit_samples(materialsamples);                                                    \
@@ -214,7 +216,7 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
             float pdf = materialsamples[i]->materialPdf;                                       \
             if (pdf > 0 && towards . towards > 0)                                              \
                 sum += materialsamples[i]->materialResponse / pdf *                            \
-                       color trace(P, towards, "maxdist", maxdist, "samples", count);          \
+                       tracesample(towards, maxdist, counted, count);                          \
         }                                                                                      \
         return sum / max(1, count);                                                            \
     }
@@ -222,13 +224,13 @@ KINORA_INDIRECT(integrate_indirect_keeping, , )
 KINORA_INDIRECT(integrate_indirect_of_keeping, shader which;, which->)
 #undef KINORA_INDIRECT
 
-color integrate_indirect(color hints; float maxdist;) {
+color integrate_indirect(color hints; float maxdist; uniform float counted;) {
     __radiancesample samples[];
-    return integrate_indirect_keeping(hints, maxdist, samples);
+    return integrate_indirect_keeping(hints, maxdist, counted, samples);
 }
-color integrate_indirect_of(shader which; color hints; float maxdist;) {
+color integrate_indirect_of(shader which; color hints; float maxdist; uniform float counted;) {
     __radiancesample samples[];
-    return integrate_indirect_of_keeping(which, hints, maxdist, samples);
+    return integrate_indirect_of_keeping(which, hints, maxdist, counted, samples);
 }
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "raytrace/film.h"
 #include "runtime/base/stage_clock.h"
-#include "runtime/picture/shading/insight.h"
+#include "runtime/picture/shading/frame/insight.h"
 #include "runtime/picture/shading/shading.h"
 
 namespace kinora {

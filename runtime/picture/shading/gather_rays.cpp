@@ -5,12 +5,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "raytrace/hits.h"
 #include "raytrace/sampling.h"
+#include "runtime/picture/shading/dome.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
-#include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/picture/shading/rays/map_directions.h"
 #include "runtime/picture/shading/rays/map_tables.h"
+#include "runtime/scene/images/map_light.h"
 
 namespace kinora {
 
@@ -40,6 +43,10 @@ bool any_of_surface(std::span<const GatherResult> results) {
     for (const GatherResult& result : results)
         if (result.name.starts_with("surface:") && result.name != "surface:P") return true;
     return false;
+}
+
+bool wants_color(std::span<const GatherResult> results) {
+    return std::ranges::any_of(results, [](const auto& r) { return r.name == "surface:Ci"; });
 }
 
 // Rows of the service's arguments (rsl/model/services.def).
@@ -135,6 +142,10 @@ class GatherRays::Call {
     void meet(const SampleSpan& samples, const raytrace::RayBatch& rays,
               const raytrace::HitBatch& hits, const RayTag& tag);
 
+    // Rays that leave the scene meet what surrounds it where the statement takes a color.
+    void meet_dome(const SampleSpan& samples, const raytrace::RayBatch& rays,
+                   const raytrace::HitBatch& hits, const RayTag& tag);
+
   private:
     // A sample's ray: none, one of its lane's cone, or one with a direction of its own.
     enum class Sent : uint8_t { Not, InCone, Alone };
@@ -210,8 +221,10 @@ int32_t GatherRays::gather(Grid& grid, const jit::ServiceCall& call) {
             own.add(rays, samples, slot);
         },
         MeetSamples([&](const SampleSpan& samples, const raytrace::RayBatch& rays,
-                        const raytrace::HitBatch& hits,
-                        const RayTag& tag) { own.meet(samples, rays, hits, tag); }));
+                        const raytrace::HitBatch& hits, const RayTag& tag) {
+            if (hits.count > 0) own.meet(samples, rays, hits, tag);
+            own.meet_dome(samples, rays, hits, tag);
+        }));
     own.repeat_samples();
     grid.memory.arena.release(mark);
     grid.record_sets[size_t(handle)] = {most, memory.records.data()};
@@ -372,6 +385,34 @@ void GatherRays::Call::meet(const SampleSpan& samples, const raytrace::RayBatch&
         records_.at(record, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherHit);
         for (size_t c = 0; c < columns.size(); ++c)
             if (columns[c]) records_.at(record, rsl::kGatherResults + int(c), lane) = columns[c][h];
+    }
+}
+
+// Its light is there without end: no other result has a value.
+void GatherRays::Call::meet_dome(const SampleSpan& samples, const raytrace::RayBatch& rays,
+                                 const raytrace::HitBatch& hits, const RayTag& tag) {
+    if (!all_.hits_.dome().is_seen(tag) || !wants_color(results_)) return;
+    ThreadMemory& memory = grid_.memory;
+    NestedWavefront nested(memory);
+    nested->hits.reserve(kGridPoints);
+    const raytrace::HitBatch& ends =
+        raytrace::missed(rays, hits, all_.frame_.miss_distance, nested->hits);
+    raytrace::ShadeResult seen = take_colors(memory.arena, ends.count);
+    all_.hits_.shade_misses(ends, tag, memory, seen);
+    for (size_t k = 0; k < ends.count; ++k) {
+        if (rays.tfar[ends.ray[k]] < kMiss / 10) continue;
+        const uint32_t slot = rays.slot[ends.ray[k]], record = samples.number[slot];
+        const int lane = samples.lane[slot];
+        records_.at(record, rsl::kGatherState, lane) = jit::float_of(rsl::kGatherHit);
+        int column = rsl::kGatherResults;
+        for (const GatherResult& result : results_) {
+            const int width = rsl::component_count(result.type);
+            const bool color = result.name == "surface:Ci";
+            for (int c = 0; c < width && !result.name.starts_with("ray:"); ++c)
+                records_.at(record, column + c, lane) = color ? seen.Ci[c][k] : 0.0f;
+            if (result.name == "ray:length") records_.at(record, column, lane) = kMiss;
+            column += width;
+        }
     }
 }
 

@@ -9,9 +9,9 @@
 #include "jit/ir/kernel_call.h"
 #include "raytrace/random/series.h"
 #include "raytrace/wavefront.h"
+#include "runtime/picture/shading/frame/frame.h"
 #include "runtime/picture/shading/rays/budget.h"
 #include "runtime/picture/shading/rays/kinds.h"
-#include "runtime/picture/shading/shading_frame.h"
 #include "runtime/scene/shaders/picture_points.h"
 #include "runtime/scene/shaders/shader_instance.h"
 

@@ -9,10 +9,11 @@
 #include "raytrace/hits.h"
 #include "rsl/model/renderer_services.h"
 #include "runtime/base/stage_clock.h"
-#include "runtime/picture/shading/insight.h"
+#include "runtime/picture/shading/dome.h"
+#include "runtime/picture/shading/frame/frame.h"
+#include "runtime/picture/shading/frame/insight.h"
 #include "runtime/picture/shading/lighting/lamps.h"
 #include "runtime/picture/shading/ray_queue.h"
-#include "runtime/picture/shading/shading_frame.h"
 
 namespace kinora {
 
@@ -257,7 +258,8 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
             result.aov[p][points[i]] = out[size_t(look.aovs[p])][i];
 }
 
-// Nothing lies there, so a volume begins with Ci and Oi of 0; without one they stay so.
+// A volume begins with what surrounds the scene. Where nothing does, Ci and Oi are 0; without a
+// volume they stay so.
 void HitShader::shade_misses(const raytrace::HitBatch& ends, const RayTag& ray,
                              ThreadMemory& memory, raytrace::ShadeResult& result) {
     DenormalMode mode(frame_.quality);
@@ -265,6 +267,7 @@ void HitShader::shade_misses(const raytrace::HitBatch& ends, const RayTag& ray,
         std::fill_n(result.Ci[k], ends.count, 0.0f);
         std::fill_n(result.Oi[k], ends.count, 0.0f);
     }
+    if (dome_.is_seen(ray)) dome_.show(ends, ray, memory, result);
     volumes_.apply(ends, ray, shadows_, memory, result);
 }
 

@@ -15,27 +15,33 @@ struct HitOutputs {
     std::span<float* const> columns;  // by hit
 };
 
+class Dome;
 class Lamps;
 
 class HitShader {
   public:
     HitShader(const ShadingFrame& frame, KernelRunner& kernels, LightRecords& lights,
-              Transmission& transmission, Volumes& volumes, Lamps& lamps)
+              Transmission& transmission, Volumes& volumes, Lamps& lamps, Dome& dome)
         : frame_(frame),
           kernels_(kernels),
           lights_(lights),
           queue_(frame, *this, transmission),
           shadows_(frame, queue_),
           volumes_(volumes),
-          lamps_(lamps) {}
+          lamps_(lamps),
+          dome_(dome) {}
 
     // The colours of hits of rays with that tag, with what volumes before them add. `outputs`:
     // wanted beside Ci and Oi.
     void shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadMemory& memory,
                raytrace::ShadeResult& result, const HitOutputs* outputs = nullptr);
-    // Of the ends of rays that met nothing: the volumes they run through.
+    // Of the ends of rays that met nothing: what surrounds the scene, and the volumes they run
+    // through.
     void shade_misses(const raytrace::HitBatch& ends, const RayTag& ray, ThreadMemory& memory,
                       raytrace::ShadeResult& result);
+
+    // What surrounds the scene.
+    const Dome& dome() const { return dome_; }
 
     // The queue of the rays that kernels and lights send.
     RayQueue& queue() { return queue_; }
@@ -56,6 +62,7 @@ class HitShader {
     LampRaysAtOnce shadows_;
     Volumes& volumes_;
     Lamps& lamps_;
+    Dome& dome_;
 };
 
 }  // namespace kinora

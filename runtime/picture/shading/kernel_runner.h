@@ -8,8 +8,8 @@
 #include "rsl/model/globals.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/base/parallel.h"
+#include "runtime/picture/shading/frame/frame.h"
 #include "runtime/picture/shading/grid.h"
-#include "runtime/picture/shading/shading_frame.h"
 
 namespace kinora {
 

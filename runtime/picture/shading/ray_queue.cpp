@@ -8,6 +8,7 @@
 
 #include "raytrace/hits.h"
 #include "rsl/model/renderer_services.h"
+#include "runtime/picture/shading/dome.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/kernel_runner.h"
 #include "runtime/picture/shading/transmission.h"
@@ -238,23 +239,27 @@ RayPlan RayQueue::plan(RayKind kind, Grid& grid, const Lanes& lanes,
 
 namespace {
 
-// Lamps that light the sender are not counted again by its rays of diffuse light.
+// Lamps that light the sender are not counted again by its rays of diffuse light, nor is what
+// surrounds the scene by rays for its specular samples.
 RayTag tag_of(const RayCall& call, int32_t label) {
     const RayKindRow& row = row_of(call.kind);
     RayTag tag = sent_tag(call.grid.ray, row, label);
     const ShaderInstance* sender = call.grid.of_surface().look;
     const bool diffuse = call.diffuse || row.type == RayType::Diffuse;
-    tag.counted = diffuse ? call.grid.frame.counted[sender->index] : 0;
+    const ShadingFrame& frame = call.grid.frame;
+    tag.counted = diffuse        ? frame.counted[sender->index]
+                  : call.counted ? frame.counted_specular[sender->index]
+                                 : 0;
     if (call.scattered & call.lanes.mask()) {
         tag.scattered = true;
-        tag.most_samples = call.grid.frame.quality.samples_behind;
+        tag.most_samples = frame.quality.samples_behind;
     }
     return tag;
 }
 
 RayCall part_of(const RayCall& call, const Lanes& lanes) {
-    return {call.kind,  call.grid,      lanes,        call.plan,     call.rows,
-            call.label, call.distances, call.diffuse, call.scattered};
+    return {call.kind,  call.grid,      lanes,        call.plan,      call.rows,
+            call.label, call.distances, call.diffuse, call.scattered, call.counted};
 }
 
 // Calls f with a part of the call for rays that are scattered, and one for those that are not.
@@ -350,7 +355,7 @@ void RayQueue::send(const RayCall& call, const AddSamples& add, const MeetSample
             const raytrace::HitBatch& hits =
                 raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskAll, call.grid.depth + 1,
                                 below->hits, memory.counters.trace);
-            if (hits.count > 0) meet(samples, rays, hits, tag);
+            if (hits.count > 0 || hits_.dome().stands()) meet(samples, rays, hits, tag);
             memory.arena.release(part);
         });
     });

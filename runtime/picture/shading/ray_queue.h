@@ -53,6 +53,7 @@ struct RayCall {
     bool distances = false;  // rays that find what passes find the nearest surface, too
     bool diffuse = false;    // they find light that a point gets from all around
     uint32_t scattered = 0;  // lanes whose rays go in many directions, of which each shows little
+    bool counted = false;    // the point has the specular light of its lights by their samples
 };
 
 // Adds the rays of samples, whose slots count up from `slot`; none for those that see nothing.

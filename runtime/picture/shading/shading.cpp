@@ -8,6 +8,7 @@
 
 #include "runtime/base/parallel.h"
 #include "runtime/picture/shading/bake.h"
+#include "runtime/picture/shading/dome.h"
 #include "runtime/picture/shading/grid_host.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/imager.h"
@@ -22,32 +23,6 @@
 
 namespace kinora {
 
-void ShadingCounters::operator+=(const ShadingCounters& o) {
-    trace += o.trace;
-    points += o.points;
-    light_points += o.light_points;
-    opacity_points += o.opacity_points;
-    columns += o.columns;
-    too_deep += o.too_deep;
-    unlit += o.unlit;
-    out_of_rays += o.out_of_rays;
-    thinned += o.thinned;
-    kernel_points += o.kernel_points;
-    kernel_lanes += o.kernel_lanes;
-    seen += o.seen;
-    dark += o.dark;
-}
-
-ShadingFrame::ShadingFrame(const Scene& s, const Pose& p)
-    : scene(s),
-      resources(s),
-      nodes(s),
-      shapes(s),
-      lights(s),
-      shaders(s),
-      quality(s.options.quality),
-      pose(p) {}
-
 // Each object is made of those before it. Kernels alone lead back up: they call services.
 struct Shading::Objects {
     Objects(const Scene& scene, const Pose& pose) : frame(scene, pose) {}
@@ -58,8 +33,9 @@ struct Shading::Objects {
     LightRecords lights{frame, kernels};
     Volumes volumes{frame, kernels, lights};
     Transmission transmission{frame, kernels, lights, volumes};
+    Dome dome{frame, kernels};
     Lamps lamps{frame, kernels, lights};
-    HitShader hits{frame, kernels, lights, transmission, volumes, lamps};
+    HitShader hits{frame, kernels, lights, transmission, volumes, lamps, dome};
     MapTables maps{*frame.resources.textures};
     RayServices rays{frame, hits.queue(), maps};
     GatherRays gathers{frame, hits, hits.queue(), maps};
@@ -175,7 +151,8 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     update_looks(frame, objects_->looks_run, all);
     set_view(frame);
     objects_->lights.begin_frame(all_inputs);
-    frame.miss_distance = objects_->fills_space ? frame.far_distance : 0.0f;
+    frame.miss_distance =
+        objects_->fills_space || objects_->dome.stands() ? frame.far_distance : 0.0f;
 }
 
 void Shading::stop_by(const std::atomic<int>* flag) {
@@ -214,7 +191,8 @@ bool Shading::reads_footprints() const {
 }
 
 float Shading::miss_distance() const {
-    return objects_->frame.miss_distance;
+    const bool sees = objects_->fills_space || objects_->dome.is_behind_picture();
+    return sees ? objects_->frame.miss_distance : 0.0f;
 }
 
 void Shading::shade_misses(const raytrace::HitBatch& ends, int thread,

@@ -7,7 +7,7 @@
 
 #include "raytrace/integrator.h"
 #include "runtime/base/diagnostic.h"
-#include "runtime/picture/shading/shading_frame.h"
+#include "runtime/picture/shading/frame/frame.h"
 
 namespace kinora {
 

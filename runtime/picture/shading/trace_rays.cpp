@@ -10,10 +10,11 @@
 #include "raytrace/sampling.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
-#include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/picture/shading/rays/map_directions.h"
 #include "runtime/picture/shading/rays/map_tables.h"
 #include "runtime/picture/shading/rays/smooth_surface.h"
 #include "runtime/picture/shading/volumes.h"
+#include "runtime/scene/images/map_light.h"
 
 namespace kinora {
 
@@ -45,7 +46,19 @@ namespace {
 // Rays along R, or in a cone about it.
 class TraceRays {
   public:
-    enum { P = 2, R = 5, Maxdist = 8, Bias, Samples, Spread, Label, Weight, Through, Rows };
+    enum {
+        P = 2,
+        R = 5,
+        Maxdist = 8,
+        Bias,
+        Samples,
+        Spread,
+        Label,
+        Weight,
+        Through,
+        Counted,
+        Rows
+    };
 
     TraceRays(const Grid& grid, const Lanes& lanes) : grid_(grid), lanes_(lanes) {}
 
@@ -116,7 +129,9 @@ void RayServices::trace(Grid& grid, const jit::ServiceCall& call) {
                  .plan = plan,
                  .rows = TraceRays::Rows,
                  .label = TraceRays::Label,
-                 .scattered = along.scattered()},
+                 .scattered = along.scattered(),
+                 // The same for all lanes.
+                 .counted = lanes.integer(TraceRays::Counted, lanes.first()) != 0},
                 add, SumSamples(sum));
     for (int lane = 0; lane < kLanes; ++lane) {
         const int n = plan.count[lane];

@@ -10,7 +10,7 @@
 #include "raytrace/camera.h"
 #include "raytrace/film.h"
 #include "runtime/base/math.h"
-#include "runtime/picture/shading/insight.h"
+#include "runtime/picture/shading/frame/insight.h"
 
 namespace kinora {
 

@@ -202,6 +202,7 @@ constexpr Added kAdded[] = {
     {"default fill light", "0.22, wide, from the camera's right; no shadows, no highlights"},
     {"default rim light", "0.35, from behind, above; no shadows, no highlights"},
     {"grey world", "0.05 from all sides, as Blender's; no shadows; --lights scene: none"},
+    {"indirect light", "what other surfaces reflect; --gi"},
 };
 
 std::string_view meaning_of(std::string_view added) {

@@ -95,6 +95,10 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
     text += fmt::format(" follow {} turntable {} rate {} fov {:a} from {} at {}", o.follow,
                         o.turntable.value_or(0), o.turntable || o.follow ? rate : 0.0, o.yfov,
                         point(o.look_from), o.look_at);
+    const EnvironmentGiven& around = o.environment;
+    if (around.any())
+        text += fmt::format(" environment {} {} {} {}", around.what, around.rotation.value_or(0),
+                            around.brightness.value_or(1), around.hidden);
     if (o.smooth) text += fmt::format(" smooth {}", *o.smooth);
     text += fmt::format(" emission {} vertex colors {} ignore {}", int(o.emission), o.vertex_colors,
                         o.ignore_required);

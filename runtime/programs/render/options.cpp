@@ -153,6 +153,17 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--gi", o.gi,
                    "bounces of indirect light in every scene, whatever its shaders ask for (0)")
         ->check(CLI::Range(0, 64));
+    app.add_option("--environment", o.environment.what,
+                   "what lies around the scene and lights it: a picture FILE.hdr, .exr or .tx, a "
+                   "color R,G,B, a light of ours such as sunsky, FILE.sl, or none (the scene's)");
+    app.add_option("--environment-rotation", o.environment.rotation,
+                   "degrees by which it is turned about the up axis (0)")
+        ->check(CLI::Range(-1e6, 1e6));
+    app.add_option("--environment-brightness", o.environment.brightness,
+                   "what its light is multiplied by (1)")
+        ->check(CLI::Range(0.0, 1e9));
+    app.add_flag("--environment-hidden", o.environment.hidden,
+                 "it lights and is mirrored, but is not seen behind the picture");
     app.add_option("--exposure", given.exposure,
                    "stops brighter (1 doubles) or darker, or auto: by the scene's whole range (0)");
     app.add_option("--background", given.background, "R,G,B instead of transparent");
@@ -316,6 +327,7 @@ void interpret(const Given& given, RenderOptions& o) {
     if (o.meter) check_range("--unit", *o.meter, 1e-15, 1e15, "takes metres, more than 0");
     check_stages(o.dump);
     if (!given.target.empty()) choose_target(given.target, o);
+    o.environment.include_directories = o.include_directories;
     interpret_view(given, o);
     interpret_quality(given.quality, o);
     interpret_changes(given, o);

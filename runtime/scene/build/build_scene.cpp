@@ -54,7 +54,7 @@ bool has_picture_shaders(const SceneDescription& description) {
     auto any = [](const PictureShaders& picture) {
         return !picture.atmosphere.empty() || !picture.imagers.empty();
     };
-    return any(description.picture) ||
+    return description.environment || any(description.picture) ||
            std::ranges::any_of(description.cameras,
                                [&](const CameraDefinition& camera) { return any(camera.picture); });
 }
@@ -102,7 +102,7 @@ std::unique_ptr<Scene> build_scene(std::shared_ptr<SceneDescription> description
 
     add_cameras(scene, tree);
     if (!choose_camera(scene, tree, diagnostics)) return nullptr;
-    add_lights(scene, tree, uses, diagnostics);
+    if (!add_lights(scene, tree, uses, diagnostics)) return nullptr;
 
     if (stopped() || !add_instances(scene, uses, diagnostics)) return nullptr;
     if (!again) preload_textures(*scene.description, *scene.textures);

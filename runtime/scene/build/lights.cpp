@@ -5,6 +5,7 @@
 
 #include "runtime/scene/build/area_lights.h"
 #include "runtime/scene/build/defaults.h"
+#include "runtime/scene/build/environment.h"
 #include "runtime/scene/build/instances/instances.h"
 #include "runtime/scene/build/light_watts.h"
 #include "runtime/scene/description/findings.h"
@@ -130,6 +131,7 @@ void add_shining_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse
         scale_watts(scene, diagnostics);
     }
     if (wanted == LightSet::Scene) return;
+    if (wanted == LightSet::Auto && has_environment(*scene.description)) return;
     if (wanted == LightSet::Auto && lit) {
         scene.watch_dark = kWatchedFrames;
         add_grey_world(scene, uses, diagnostics);
@@ -157,10 +159,12 @@ void add_indirect_light(Scene& scene) {
 
 }  // namespace
 
-void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
+bool add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
                 Diagnostics& diagnostics) {
     add_shining_lights(scene, tree, uses, diagnostics);
+    if (!add_environment(scene, tree, diagnostics)) return false;
     if (scene.options.indirect > 0) add_indirect_light(scene);
+    return true;
 }
 
 }  // namespace kinora

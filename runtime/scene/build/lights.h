@@ -12,8 +12,8 @@ struct Scene;
 
 // Every occurrence of a light, area lights before others; default lights at the camera where the
 // scene has none that light anything, or as the options say. Writes Scene::lights and added. The
-// scene has its camera.
-void add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
+// scene has its camera. False after an error: what lies around the scene cannot be read.
+bool add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
                 Diagnostics& diagnostics);
 
 // Whether some of the default lights but the grey world are not hidden.

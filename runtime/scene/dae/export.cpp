@@ -344,6 +344,22 @@ std::string ColladaExporter::library(const char* name, const std::string& conten
     return content.empty() ? "" : xml(std::string("library_") + name, "", content);
 }
 
+// `image`: the id of its picture, or "".
+static std::string environment_extra(const EnvironmentDefinition& around,
+                                     const std::string& image) {
+    auto number = [](const char* name, double value, double usual) {
+        return value == usual ? "" : xml(name, "", number_text(std::span<const double>(&value, 1)));
+    };
+    const double color[] = {around.color.x, around.color.y, around.color.z};
+    std::string parts;
+    if (!image.empty()) parts += xml("instance_image", attribute("url", "#" + image), "");
+    if (image.empty() || around.color != dvec3(1.0)) parts += xml("color", "", number_text(color));
+    parts += number("rotation", around.rotation, 0) + number("brightness", around.brightness, 1);
+    if (!around.behind_picture) parts += xml("hidden", "", "true");
+    return xml("extra", "",
+               xml("technique", attribute("profile", "RSL"), xml("environment", "", parts)));
+}
+
 ColladaExport ColladaExporter::run() {
     name_all();
     merge_vertices();
@@ -380,6 +396,8 @@ ColladaExport ColladaExporter::run() {
                    description_.picture.imagers.end());
     if (tops.empty()) tops = "<node/>";
     tops += rsl_extra(picture, "scene");
+    if (const auto& around = description_.environment)
+        tops += environment_extra(*around, around->picture.empty() ? "" : image(around->picture));
     CurveList::Text curves = animation_.text(diagnostics_);
     std::string scene = xml("visual_scene", attribute("id", id("scene", "scene")),
                             tops + animation_.played_range());

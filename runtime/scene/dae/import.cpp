@@ -72,6 +72,23 @@ std::optional<SceneDescription> import_collada(const SceneSource& source,
     return description;
 }
 
+static EnvironmentDefinition environment_of(const collada::SceneData& data,
+                                            const collada::Environment& from) {
+    EnvironmentDefinition to;
+    if (from.image != collada::kNone) {
+        // Of one that is not there, the name: it is looked for once more, and then told.
+        const collada::Image& image = data.images[from.image];
+        for (const std::string* name : {&image.path, &image.uri, &image.id})
+            if (to.picture.empty()) to.picture = *name;
+    }
+    to.color = dvec3(from.color[0], from.color[1], from.color[2]);
+    to.brightness = from.brightness;
+    to.rotation = from.rotation;
+    to.behind_picture = !from.hidden;
+    to.where = from.where;
+    return to;
+}
+
 void ColladaImport::run() {
     out_.meter = data_.asset.meter;
     out_.up_axis = UpAxis(data_.asset.up_axis);
@@ -87,6 +104,7 @@ void ColladaImport::run() {
     import_lights();
     import_cameras();
     out_.picture = picture_shaders(data_.rsl_materials);
+    if (data_.environment) out_.environment = environment_of(data_, *data_.environment);
     import_nodes();
     add_linear_vertex_colors();
     import_animation();

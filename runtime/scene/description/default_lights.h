@@ -10,6 +10,8 @@ inline constexpr const char* kRimLight = "default rim light";
 inline constexpr const char* kGreyWorld = "grey world";
 // What other surfaces reflect, where it is asked for (--gi).
 inline constexpr const char* kIndirectLight = "indirect light";
+// What lies around the scene, where something does (--environment).
+inline constexpr const char* kEnvironment = "environment";
 // The node that carries the first three.
 inline constexpr const char* kDefaultLightNode = "default light";
 

@@ -17,6 +17,7 @@
 #include "rsl/compile.h"
 #include "runtime/base/allowed_paths.h"
 #include "runtime/base/math.h"
+#include "runtime/scene/description/environment.h"
 #include "runtime/scene/description/file_picture.h"
 #include "runtime/scene/description/memory_file.h"
 #include "skin/morph.h"
@@ -232,6 +233,8 @@ struct LightDefinition {
     bool ambient = false;
     bool blender = false;        // Blender wrote it, without the grey world that it lights with too
     bool indirect = false;       // --gi's: not for surfaces that gather such light themselves
+    bool surrounds = false;      // rays that leave the scene see what it sends
+    bool behind_picture = true;  // of such a light: the camera's rays do, too
     bool blender_watts = false;  // one of COLLADA's that Blender wrote in watts
     uint32_t samples = 0;        // of a light on geometry; 0: not said
     Location where;
@@ -296,6 +299,7 @@ struct SceneDescription {
     std::vector<std::string> hidden_default_lights;  // names of those that are not added (--hide)
     std::vector<CameraDefinition> cameras;
     PictureShaders picture;
+    std::optional<EnvironmentDefinition> environment;
     std::vector<ClipDefinition> clips;
     std::shared_ptr<const rsl::Shader> default_surface;  // of surfaces without material; null: ours
     bool tints = true;  // vertex colours tint our default surface (ImportOptions::vertex_colors)

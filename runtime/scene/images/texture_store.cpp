@@ -108,7 +108,7 @@ const Texture* TextureStore::meet(int32_t name) {
     std::unique_ptr<Texture>& texture = textures_[name];
     if (!texture) {
         TextureName modes = parse_texture_name(rsl::interned(name));
-        texture = std::make_unique<Texture>(Texture{modes, image(modes.path, modes.data)});
+        texture = std::make_unique<Texture>(modes, image(modes.path, modes.data));
         if (!texture->image->error.empty()) texture->modes.nearest = true;  // sharp checks
     }
     uint32_t chunk_index = uint32_t(name) >> kChunkBits;

@@ -15,6 +15,7 @@
 #include "runtime/base/allowed_paths.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/scene/description/texture_name.h"
+#include "runtime/scene/images/map_distribution.h"
 #include "runtime/scene/images/texture_pyramid.h"
 
 namespace kinora {
@@ -36,8 +37,12 @@ struct StoredImage {
 };
 
 struct Texture {
+    Texture(TextureName m, const StoredImage* i) : modes(std::move(m)), image(i) {}
     TextureName modes;
     const StoredImage* image;
+    // Directions by its light, made once (map_light.h).
+    mutable std::once_flag lights_once;
+    mutable std::unique_ptr<const MapDistribution> by_light;
 };
 
 class TextureStore {

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "rsl/model/renderer_services.h"
+#include "runtime/scene/images/map_light.h"
 #include "runtime/scene/images/texture.h"
 #include "runtime/scene/kernels/stratified.h"
 
@@ -15,6 +16,12 @@ void WorldHost::texture(const jit::ServiceCall& call) {
 }
 void WorldHost::environment(const jit::ServiceCall& call) {
     lookup_environment(call, textures(), best_filter());
+}
+void WorldHost::maplight(const jit::ServiceCall& call) {
+    lookup_map_light(call, textures());
+}
+void WorldHost::mapdirection(const jit::ServiceCall& call) {
+    lookup_map_direction(call, textures());
 }
 void WorldHost::textureinfo(const jit::ServiceCall& call) {
     lookup_texture_info(call, textures());

@@ -216,9 +216,10 @@ namespace {
 std::vector<std::string> matching_default_lights(const std::string& pattern) {
     const bool node = glob_matches(pattern, kDefaultLightNode, kDefaultLightNode);
     std::vector<std::string> names;
-    for (const char* name : {kKeyLight, kFillLight, kRimLight, kGreyWorld})
-        if ((node && std::string_view(name) != kGreyWorld) || glob_matches(pattern, name, name))
-            names.push_back(name);
+    for (const char* name : {kKeyLight, kFillLight, kRimLight})
+        if (node || glob_matches(pattern, name, name)) names.push_back(name);
+    for (const char* name : {kGreyWorld, kIndirectLight, kEnvironment})
+        if (glob_matches(pattern, name, name)) names.push_back(name);
     return names;
 }
 

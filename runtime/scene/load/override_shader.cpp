@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "rsl/model/builtin.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/description/given_globals.h"
 #include "runtime/scene/load/override_scene.h"
@@ -162,6 +163,18 @@ bool override_atmosphere(SceneDescription& description, const ShaderGiven& given
         return false;
     for (MaterialDefinition& material : description.materials) material.atmosphere = kNone;
     return true;
+}
+
+std::shared_ptr<const rsl::Shader> find_environment_shader(SceneDescription& description,
+                                                           const ShaderGiven& given,
+                                                           Diagnostics& diagnostics) {
+    SharedShader shader = find_given(description, given, {ShaderKind::Light}, diagnostics);
+    if (!shader) return nullptr;
+    const bool samples = std::ranges::any_of(
+        shader->functions, [](const auto* f) { return rsl::is_sample_method(f->name); });
+    if (samples) return shader;
+    diagnostics.report(Code::ENVIRONMENT_SHADER, Location{}, given.shader);
+    return nullptr;
 }
 
 bool override_imager(SceneDescription& description, const ShaderGiven& given,

@@ -39,6 +39,11 @@ bool override_shader(SceneDescription& description, const std::string& pattern,
 bool override_atmosphere(SceneDescription& description, const ShaderGiven& given,
                          Diagnostics& diagnostics);
 
+// --environment: a light with sample methods; null after an error.
+std::shared_ptr<const rsl::Shader> find_environment_shader(SceneDescription& description,
+                                                           const ShaderGiven& given,
+                                                           Diagnostics& diagnostics);
+
 // --imager: the picture is run through that imager instead of the scene's, or through none
 // ("none").
 bool override_imager(SceneDescription& description, const ShaderGiven& given,

@@ -104,21 +104,37 @@ void Lamps::find_lamps() {
 // Looks that the same lamps light share a number, so that their rays go together.
 void Lamps::find_counted() {
     const auto& looks = frame_.shaders.shader_instances;
+    const bool dome = frame_.dome != kNone;
     frame_.counted.assign(looks.size(), 0);
-    counted_.emplace_back(of_surface_.size(), false);
-    if (std::ranges::none_of(wears_, [](bool lamp) { return lamp; })) return;
+    frame_.counted_specular.assign(looks.size(), 0);
+    number_of_set(std::vector<bool>(of_surface_.size()), false);
+    if (!dome && std::ranges::none_of(wears_, [](bool lamp) { return lamp; })) return;
     for (const auto& look : looks) {
         if (look->kind != ShaderInstanceKind::Surface) continue;
-        std::vector<bool> lit(of_surface_.size(), false);
-        for (size_t s = 0; s < lit.size(); ++s)
-            lit[s] = std::ranges::any_of(of_surface_[s], [&](size_t light) {
+        auto counted = [&](LightNumber LightBinding::*lacks) {
+            auto lights = [&](size_t light) {
                 const LightBinding& binding = lights_.bindings().binding(look->index, light);
-                return binding.seen && first_number(frame_, binding.nondiffuse) == 0;
-            });
-        const auto found = std::ranges::find(counted_, lit);
-        frame_.counted[look->index] = uint32_t(found - counted_.begin());
-        if (found == counted_.end()) counted_.push_back(std::move(lit));
+                return binding.seen && first_number(frame_, binding.*lacks) == 0;
+            };
+            std::vector<bool> lit(of_surface_.size(), false);
+            for (size_t s = 0; s < lit.size(); ++s)
+                lit[s] = std::ranges::any_of(of_surface_[s], lights);
+            return number_of_set(std::move(lit), dome && lights(frame_.dome));
+        };
+        frame_.counted[look->index] = counted(&LightBinding::nondiffuse);
+        frame_.counted_specular[look->index] = counted(&LightBinding::nonspecular);
     }
+}
+
+uint32_t Lamps::number_of_set(std::vector<bool> surfaces, bool dome) {
+    uint32_t number = 0;
+    while (number < counted_.size() &&
+           !(counted_[number] == surfaces && frame_.counts_dome[number] == dome))
+        ++number;
+    if (number < counted_.size()) return number;
+    counted_.push_back(std::move(surfaces));
+    frame_.counts_dome.push_back(dome);
+    return number;
 }
 
 bool Lamps::is_counted(const Grid& grid, size_t point) const {

@@ -24,6 +24,7 @@ class Lamps {
   private:
     void find_lamps();
     void find_counted();
+    uint32_t number_of_set(std::vector<bool> surfaces, bool dome);
     bool is_counted(const Grid& grid, size_t point) const;
     // What lights send from each of the points to the origin of its ray, as a radiance.
     void find_radiance(Grid& grid, std::span<vec3> radiance);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "runtime/picture/shading/rays/map_light.h"
+#include "runtime/scene/images/map_light.h"
 #include "runtime/scene/images/texture_store.h"
 
 namespace kinora {
@@ -35,7 +35,8 @@ std::vector<float> brightness_of_cells(TextureStore& store, int32_t map, const S
     for (uint32_t row = 0; row < cells.rows; ++row) {
         for (uint32_t i = 0; i < directions.size(); ++i) {
             const vec2 look(float(i % looks), float(i / looks % looks));
-            directions[i] = cells.at(row * cells.columns + i / of_cell, (look + 0.5f) / float(looks));
+            directions[i] =
+                cells.at(row * cells.columns + i / of_cell, (look + 0.5f) / float(looks));
         }
         light_of_map(store, map, directions, light.data());
         for (size_t i = 0; i < light.size(); ++i)

@@ -91,6 +91,7 @@ std::string export_glb(const SceneDescription& description, const GltfExportOpti
     report_lost_light_lists(description, losses);
     for (std::string_view what : interface_losses(description))
         losses.lost("the scene", std::string(what));
+    if (description.environment) losses.lost("the scene", "its environment");
     curves.report(losses);
     losses.hidden(document.hidden());
     if (buffer.unsound())

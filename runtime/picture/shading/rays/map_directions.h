@@ -1,23 +1,15 @@
-// runtime/picture/shading/rays/map_light.h: light of environment maps, and the rays of a gather
-// over one.
+// runtime/picture/shading/rays/map_directions.h: the directions of rays over an environment map.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <span>
 
 #include "raytrace/sampling.h"
 #include "runtime/picture/rays/cone.h"
 #include "runtime/scene/images/environment_table.h"
 
 namespace kinora {
-
-class TextureStore;
-
-// Light of an environment map along directions in world space. Looks are as wide as a texel: wider
-// ones would see light from outside a cone, or light that other directions count.
-void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> directions, vec3* light);
 
 // The directions of one lane over a map: every other one by the map's brightness where a table is
 // given, the rest over the cone. Which of the two come first is drawn at random, so that one alone

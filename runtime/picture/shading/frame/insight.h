@@ -1,5 +1,5 @@
-// runtime/picture/shading/insight.h: what a frame may be asked to show of its own making. Measured
-// by HitShader.
+// runtime/picture/shading/frame/insight.h: what a frame may be asked to show of its own making.
+// Measured by HitShader.
 #pragma once
 
 #include <cstdint>

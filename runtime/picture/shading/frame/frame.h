@@ -1,4 +1,4 @@
-// runtime/picture/shading/shading_frame.h: the frame that is shaded, and each thread's memory for
+// runtime/picture/shading/frame/frame.h: the frame that is shaded, and each thread's memory for
 // it.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
-#include "runtime/picture/shading/insight.h"
+#include "runtime/picture/shading/frame/insight.h"
 #include "runtime/scene/lights.h"
 #include "runtime/scene/nodes.h"
 #include "runtime/scene/pose.h"
@@ -59,12 +59,15 @@ struct ShadingFrame : EyeSpace {
     bool footprints = true;  // some shader reads those of hits
     bool any_transparent = false;
     bool lights_shoot = false;  // some light's kernel shoots rays
-    // Of each look: which lights on geometry light it, a number for each set; 0: none.
-    std::vector<uint32_t> counted = {};
+    uint32_t dome = kNone;      // of Scene::lights: what rays see that leave the scene
+    // Of each look: which lights that rays can see light it, a number for each set; 0: none. Those
+    // that its rays of diffuse light do not count again, and its rays for specular samples.
+    std::vector<uint32_t> counted = {}, counted_specular = {};
+    std::vector<bool> counts_dome = {};  // of each set
     // Where rays that meet nothing end: the camera's far clip where its file has one, else the far
     // side of the scene: the eye's distance from the centre plus the diagonal.
     float far_distance = 0;
-    float miss_distance = 0;  // the same where some volume lies on the way, else 0
+    float miss_distance = 0;  // the same where some volume or the dome lies there, else 0
     const std::atomic<int>* stop = nullptr;
     ShadingInsight insight = {};
 
