@@ -27,6 +27,7 @@ struct alignas(64) LampLanes {
     float edge[kLampLanes] = {};      // of a cone about all axes and cones; -1: there is none
     float slope[kLampLanes] = {};     // of a soft edge: 1 / (inner - edge), else 0
     float exponent[kLampLanes] = {};  // as slope: 0 of groups
+    bool cones = false;               // some lane has a cone
     float mixed[kLampLanes] = {};     // 1 where cones of the group do not look along the axis
 };
 
@@ -46,6 +47,12 @@ struct alignas(64) LampPoints {
     float side[3][kLampPoints] = {};  // light counts by the cosine to it; 0: from all around
     float start[kLampPoints] = {};    // in [0, 1): all that is drawn at random
     size_t count = 0;
+};
+
+struct ChosenLamp {
+    uint32_t lamp = 0;  // as the tree numbers it
+    uint32_t point = 0;
+    float weight = 1;  // its light counts so often
 };
 
 // A part of the tree that a point has chosen.
@@ -72,10 +79,11 @@ struct LampKernels {
     // how much of it is not known, up to 1: 0 of lamps. The light is 0 only where none arrives.
     void (*see)(const LampLanes& lamps, const float P[3], const float side[3], float* light,
                 float* doubt);
-    // Up to `wanted` parts of the tree for each point, those of a point in its order; how many in
-    // all. What a point chooses does not depend on those beside it.
+    // Up to `wanted` lamps of the tree for each point, those of a point in its order; how many in
+    // all. What a point chooses does not depend on those beside it. There is room for all of
+    // `hits`, which are of no more use.
     size_t (*choose)(const LampBlock* tree, const LampPoints& points, size_t wanted,
-                     const LampParts& parts, LampHit* hits);
+                     const LampParts& parts, LampHit* hits, ChosenLamp* chosen);
 };
 KINORA_KERNEL_TABLES(LampKernels, Lamps);
 

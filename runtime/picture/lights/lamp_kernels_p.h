@@ -65,15 +65,28 @@ struct SeenLamp {
     float light, doubt;
 };
 
-// Lane i at a point.
+// What a lane's cone leaves of its light at a point, and whether that is known.
+struct SeenCone {
+    float light, within;
+};
+KINORA_LAMP_PART SeenCone see_cone(const LampLanes& lamps, size_t i, float dx, float dy, float dz,
+                                   float shorter, float sphere_sine) {
+    const float *ax = lamps.axis[0], *ay = lamps.axis[1], *az = lamps.axis[2];
+    const float *edge = lamps.edge, *slope = lamps.slope, *exponent = lamps.exponent;
+    const float* mixed = lamps.mixed;
+    const float cosine = -(dx * ax[i] + dy * ay[i] + dz * az[i]) * shorter;
+    const float within = share_within(cosine, sphere_sine, edge[i], mixed[i]);
+    return {within * cone_light(cosine, edge[i], slope[i], exponent[i]), within};
+}
+
+// Lane i at a point. kCones: some lane of the block has a cone.
+template <bool kCones>
 KINORA_LAMP_PART SeenLamp see_lane(const LampLanes& lamps, size_t i, float x, float y, float z,
                                    float nx, float ny, float nz) {
     const float *cx = lamps.center[0], *cy = lamps.center[1], *cz = lamps.center[2];
-    const float *ax = lamps.axis[0], *ay = lamps.axis[1], *az = lamps.axis[2];
     const float *constant = lamps.fall[0], *linear = lamps.fall[1], *quadratic = lamps.fall[2];
     const float *radii = lamps.radius, *spread = lamps.spread, *strength = lamps.strength;
-    const float *range = lamps.range, *edge = lamps.edge, *slope = lamps.slope;
-    const float *exponent = lamps.exponent, *mixed = lamps.mixed;
+    const float* range = lamps.range;
     const float dx = cx[i] - x, dy = cy[i] - y, dz = cz[i] - z;
     const float square = dx * dx + dy * dy + dz * dz, radius = radii[i];
     const float distance = __builtin_sqrtf(square), shorter = 1 / greater(distance, kTiny);
@@ -82,25 +95,31 @@ KINORA_LAMP_PART SeenLamp see_lane(const LampLanes& lamps, size_t i, float x, fl
     const float bare = lesser(strength[i] / greater(falls, kTiny), kMostLight);
     const float facing = (nx * dx + ny * dy + nz * dz + radius) * shorter;
     const float least = nx * nx + ny * ny + nz * nz > 0 ? kLeastCosine : 1.0f;
-    const float cosine = -(dx * ax[i] + dy * ay[i] + dz * az[i]) * shorter;
     const float sphere_sine = radius < distance ? radius * shorter : 1.0f;
-    const float within = share_within(cosine, sphere_sine, edge[i], mixed[i]);
-    const float cone = cone_light(cosine, edge[i], slope[i], exponent[i]);
-    const float all = bare * lesser(greater(facing, least), 1.0f) * within * cone;
     const float wide = lesser(radius * radius / greater(far2, kTiny), 1.0f);
-    const float unsure = within < 1 ? 1.0f : wide;
+    SeenCone cone{1, 1};
+    if constexpr (kCones) cone = see_cone(lamps, i, dx, dy, dz, shorter, sphere_sine);
+    const float all = bare * lesser(greater(facing, least), 1.0f) * cone.light;
+    const float unsure = cone.within < 1 ? 1.0f : wide;
     return {distance - radius > range[i] ? 0.0f : all, radius > 0 ? unsure : 0.0f};
+}
+
+template <bool kCones>
+void see_lanes(const LampLanes& lamps, const float P[3], const float side[3], float* light,
+               float* doubt) {
+    const float x = P[0], y = P[1], z = P[2], nx = side[0], ny = side[1], nz = side[2];
+#pragma GCC ivdep
+    for (size_t i = 0; i < kLampLanes; ++i) {
+        const SeenLamp seen = see_lane<kCones>(lamps, i, x, y, z, nx, ny, nz);
+        light[i] = seen.light;
+        doubt[i] = seen.doubt;
+    }
 }
 
 void see(const LampLanes& lamps, const float P[3], const float side[3], float* light,
          float* doubt) {
-    const float x = P[0], y = P[1], z = P[2], nx = side[0], ny = side[1], nz = side[2];
-#pragma GCC ivdep
-    for (size_t i = 0; i < kLampLanes; ++i) {
-        const SeenLamp seen = see_lane(lamps, i, x, y, z, nx, ny, nz);
-        light[i] = seen.light;
-        doubt[i] = seen.doubt;
-    }
+    lamps.cones ? see_lanes<true>(lamps, P, side, light, doubt)
+                : see_lanes<false>(lamps, P, side, light, doubt);
 }
 
 // ---- choosing -----------------------------------------------------------------------------------
@@ -119,13 +138,14 @@ struct Opening {
 };
 
 // The light of a lane at the points that have `active` 1.
+template <bool kCones>
 void see_points(const LampLanes& lamps, size_t lane, const LampPoints& points,
                 const PointRow& active, PointRow& light, PointRow& doubt) {
     const float *x = points.P[0], *y = points.P[1], *z = points.P[2];
     const float *nx = points.side[0], *ny = points.side[1], *nz = points.side[2];
 #pragma GCC ivdep
     for (size_t p = 0; p < kLampPoints; ++p) {
-        const SeenLamp seen = see_lane(lamps, lane, x[p], y[p], z[p], nx[p], ny[p], nz[p]);
+        const SeenLamp seen = see_lane<kCones>(lamps, lane, x[p], y[p], z[p], nx[p], ny[p], nz[p]);
         const float arrives = seen.light > 0 ? seen.light : 0.0f;  // what is no number does not
         light[p] = arrives * active[p];
         doubt[p] = seen.doubt;
@@ -135,7 +155,7 @@ void see_points(const LampLanes& lamps, size_t lane, const LampPoints& points,
 // Whether points open a group: much of all light may be other than it seems, or it would be chosen
 // more than once. Leaves its light only where it stays closed.
 bool open_group(Opening& opening, const PointRow& doubt, PointRow& light, PointRow& open) {
-    constexpr float kLittle = 0.01f, kOften = 1;
+    constexpr float kLittle = 0.01f, kOften = 2;
     float any = 0;
     for (size_t p = 0; p < kLampPoints; ++p) {
         const float little = light[p] * doubt[p] - kLittle * opening.total[p];
@@ -162,7 +182,8 @@ void open_block(Opening& opening, uint32_t number, const PointRow& active) {
     alignas(64) PointRow light[kLampLanes], doubt[kLampLanes];
     size_t lanes = 0;
     for (; lanes < kLampLanes && block.lanes.strength[lanes] > 0; ++lanes) {
-        see_points(block.lanes, lanes, opening.points, active, light[lanes], doubt[lanes]);
+        auto* const seen = block.lanes.cones ? see_points<true> : see_points<false>;
+        seen(block.lanes, lanes, opening.points, active, light[lanes], doubt[lanes]);
         for (size_t p = 0; p < kLampPoints; ++p) opening.total[p] += light[lanes][p];
     }
     for (size_t p = 0; p < kLampPoints; ++p) opening.opened[p] += active[p];
@@ -247,8 +268,34 @@ void take_steps(Steps& steps) {
     }
 }
 
+// Goes down to the lamp of a group that hit.at stands for. What is chosen there has its share of
+// the group's light as its chance. Whether any light comes from there.
+bool go_down(const LampBlock* tree, const LampPoints& points, LampHit& hit) {
+    const size_t p = hit.point;
+    const float P[] = {points.P[0][p], points.P[1][p], points.P[2][p]};
+    const float side[] = {points.side[0][p], points.side[1][p], points.side[2][p]};
+    while (tree[hit.block].below[hit.lane] != kOneLamp) {
+        hit.block = tree[hit.block].below[hit.lane];
+        alignas(32) float light[kLampLanes], doubt[kLampLanes], sums[kLampLanes];
+        see(tree[hit.block].lanes, P, side, light, doubt);
+        float all = 0;
+        for (size_t i = 0; i < kLampLanes; ++i) sums[i] = all += light[i];
+        const float left = lesser(hit.at * all, all * 0.9999999f);
+        alignas(32) uint32_t passed[kLampLanes];
+        for (size_t i = 0; i < kLampLanes; ++i) passed[i] = uint32_t(sums[i] <= left);
+        uint32_t lane = 0;
+        for (size_t i = 0; i < kLampLanes; ++i) lane += passed[i];
+        if (lane == kLampLanes || !(light[lane] > 0)) return false;
+        const float before = sums[lane] - light[lane];
+        hit.at = greater(lesser((left - before) / light[lane], 0.9999999f), 0.0f);
+        hit.weight *= all / light[lane];
+        hit.lane = lane;
+    }
+    return true;
+}
+
 size_t choose(const LampBlock* tree, const LampPoints& points, size_t wanted,
-              const LampParts& parts, LampHit* hits) {
+              const LampParts& parts, LampHit* hits, ChosenLamp* chosen) {
     Opening opening{tree, points, parts, float(wanted)};
     alignas(64) PointRow active;
     for (size_t p = 0; p < kLampPoints; ++p) active[p] = p < points.count ? 1.0f : 0.0f;
@@ -258,7 +305,13 @@ size_t choose(const LampBlock* tree, const LampPoints& points, size_t wanted,
     find_steps(steps);
     while (take_certain(steps)) find_steps(steps);
     take_steps(steps);
-    return steps.count;
+    size_t count = 0;
+    for (size_t h = 0; h < steps.count; ++h) {
+        LampHit& hit = hits[h];
+        if (go_down(tree, points, hit))
+            chosen[count++] = {tree[hit.block].lamp[hit.lane], hit.point, hit.weight};
+    }
+    return count;
 }
 
 #undef KINORA_LAMP_PART

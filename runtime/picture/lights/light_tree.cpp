@@ -52,6 +52,7 @@ void set_lane(LampLanes& lanes, size_t i, const Lane& lane) {
     lanes.slope[i] = lane.slope;
     lanes.exponent[i] = lane.exponent;
     lanes.mixed[i] = lane.mixed;
+    lanes.cones |= lane.edge > -1;
 }
 
 Lane lane_at(const LampLanes& lanes, size_t i) {
@@ -178,52 +179,6 @@ LightTree::Group LightTree::split(Group& group) {
 
 // ---- choosing -----------------------------------------------------------------------------------
 
-namespace {
-
-// The lane of a block in whose light `at` in [0, 1) lies, and its share of all; `at` becomes the
-// place there. A share of 0: none has any.
-struct LaneChoice {
-    size_t lane = 0;
-    float share = 0;
-};
-LaneChoice choose_lane(const float (&light)[kLampLanes], float& at) {
-    float all = 0;
-    for (float x : light) all += x;
-    if (!(all > 0)) return {};
-    float left = at * all;
-    LaneChoice choice;
-    for (size_t i = 0; i < kLampLanes; ++i) {
-        if (!(light[i] > 0)) continue;
-        choice = {i, light[i] / all};
-        if (left < light[i]) break;
-        left -= light[i];  // beyond the last by rounding alone
-    }
-    at = std::clamp(left / light[choice.lane], 0.0f, std::nextafter(1.0f, 0.0f));
-    return choice;
-}
-
-}  // namespace
-
-bool LightTree::go_down(const LampPoints& points, const LampHit& hit, ChosenLamp& chosen) const {
-    const size_t p = hit.point;
-    const float P[] = {points.P[0][p], points.P[1][p], points.P[2][p]};
-    const float side[] = {points.side[0][p], points.side[1][p], points.side[2][p]};
-    float at = hit.at, chance = 1;
-    uint32_t block = hit.block;
-    size_t lane = hit.lane;
-    while (blocks_[block].below[lane] != kOneLamp) {
-        block = blocks_[block].below[lane];
-        float light[kLampLanes], doubt[kLampLanes];
-        lamp_kernels().see(blocks_[block].lanes, P, side, light, doubt);
-        const LaneChoice choice = choose_lane(light, at);
-        if (choice.share == 0) return false;
-        lane = choice.lane;
-        chance *= choice.share;
-    }
-    chosen = {blocks_[block].lamp[lane], hit.point, hit.weight / chance};
-    return true;
-}
-
 size_t LightTree::choose(const LampPoints& points, size_t wanted, Arena& arena,
                          std::span<ChosenLamp> chosen) const {
     if (empty() || wanted == 0 || points.count == 0) return 0;
@@ -232,11 +187,10 @@ size_t LightTree::choose(const LampPoints& points, size_t wanted, Arena& arena,
                           static_cast<float(*)[kLampPoints]>(
                               arena.allocate(LampParts::kRoom * sizeof(float[kLampPoints])))};
     LampHit* const hits = arena.allocate_span<LampHit>(wanted * kLampPoints).data();
-    const size_t count = lamp_kernels().choose(blocks_.data(), points, wanted, parts, hits);
-    size_t found = 0;
-    for (size_t h = 0; h < count; ++h) found += go_down(points, hits[h], chosen[found]);
+    const size_t count =
+        lamp_kernels().choose(blocks_.data(), points, wanted, parts, hits, chosen.data());
     arena.release(mark);
-    return found;
+    return count;
 }
 
 }  // namespace kinora

@@ -25,19 +25,14 @@ namespace kinora {
 // The most lamps that are chosen for a point.
 inline constexpr size_t kMostChosen = 64;
 
-struct ChosenLamp {
-    uint32_t lamp = 0;  // its number when the tree was built
-    uint32_t point = 0;
-    float weight = 1;  // its light counts so often
-};
-
 class LightTree {
   public:
     // Lamps without strength are never chosen. Allocates nothing where as many were built before.
     void build(std::span<const Lamp> lamps);
     bool empty() const { return blocks_.empty(); }
-    // Up to `wanted` lamps for each point, those of a point in its order; how many in all. `chosen`
-    // has room for them. What a point chooses does not depend on those beside it.
+    // Up to `wanted` lamps for each point, by their numbers when the tree was built, those of a
+    // point in its order; how many in all. `chosen` has room for them. What a point chooses does
+    // not depend on those beside it.
     size_t choose(const LampPoints& points, size_t wanted, Arena& arena,
                   std::span<ChosenLamp> chosen) const;
 
@@ -48,9 +43,6 @@ class LightTree {
     };
     uint32_t add(Group group);
     Group split(Group& group);
-    // The lamp below a part of the tree that a number in [0, 1) stands for, with the share that is
-    // chosen there; false: no light comes from there.
-    bool go_down(const LampPoints& points, const LampHit& hit, ChosenLamp& chosen) const;
 
     std::vector<Lamp> lamps_;
     std::vector<uint32_t> order_;    // lamps, as the tree has them beside each other

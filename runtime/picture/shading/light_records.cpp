@@ -293,7 +293,9 @@ void LightRecords::shadow(const Making& making) const {
     std::span<const SentLight> sent = making.sent.first(making.sent_count);
     Arena& arena = grid.memory.arena;
     if (making.at.own) drop_behind(seen_points(grid), arena, sent);
-    drop_weak(float(frame_.quality.weak_lights), making.at.count, arena, sent);
+    // Lights that are chosen are weak where they count most.
+    if (!chooses(*grid.look))
+        drop_weak(float(frame_.quality.weak_lights), making.at.count, arena, sent);
     for (const SentLight& light : sent)
         if (light.casts) grid.shadows->cast(grid, making.at, light);
 }

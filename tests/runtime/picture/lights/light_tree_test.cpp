@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -225,6 +225,38 @@ TEST(LightTree, ChoosesForEachPointAlone) {
             EXPECT_EQ(c.weight, one[next++].weight);
         }
         EXPECT_EQ(next, own);
+    }
+}
+
+// All instruction sets see the same light, bit for bit.
+TEST(LampKernels, GiveTheSameBits) {
+    Random random(6);
+    for (int round = 0; round < 200; ++round) {
+        LampLanes lanes;
+        lanes.cones = round % 2;
+        for (size_t i = 0; i < kLampLanes; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                lanes.center[k][i] = float(uniform(random, -2, 2));
+                lanes.axis[k][i] = float(uniform(random, -0.6, 0.6));
+                lanes.fall[k][i] = float(uniform(random, 0, 1));
+            }
+            lanes.radius[i] = i % 2 ? float(uniform(random, 0, 1)) : 0;
+            lanes.spread[i] = 0.3f * lanes.radius[i];
+            lanes.strength[i] = float(uniform(random, 0, 3));
+            lanes.range[i] = float(uniform(random, 1, 4));
+            lanes.edge[i] = float(uniform(random, -1.2, 1));
+            lanes.slope[i] = float(uniform(random, -1, 4));
+            lanes.exponent[i] = float(uniform(random, -1, 20));
+        }
+        const float P[] = {0.1f, 0.2f, 0.3f}, side[] = {0, 0, round % 3 ? 1.0f : 0.0f};
+        float light[kLampLanes], doubt[kLampLanes];
+        lamp_kernels().see(lanes, P, side, light, doubt);
+        for (size_t k = 0; k < usable_lamp_kernels().count; ++k) {
+            float other_light[kLampLanes], other_doubt[kLampLanes];
+            usable_lamp_kernels().kernels[k]->see(lanes, P, side, other_light, other_doubt);
+            EXPECT_EQ(std::memcmp(light, other_light, sizeof(light)), 0) << k;
+            EXPECT_EQ(std::memcmp(doubt, other_doubt, sizeof(doubt)), 0) << k;
+        }
     }
 }
 

@@ -2,13 +2,17 @@
 // lights, against pictures with all of them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 
-#include "tests/runtime/scene_text.h"
+#include "runtime/kinora/kinora.h"
+#include "tests/runtime/scene/gltf/gltf_text.h"
 
 namespace kinora {
 namespace {
@@ -65,9 +69,8 @@ SceneOptions choosing(ChosenLights choice) {
 constexpr int kSize = 8;
 
 // Per pixel and component: the mean of what a choice shows more than all lights do, by its error.
-void expect_the_same_mean(const std::string& text, ChosenLights choice) {
+void expect_the_same_mean(Rendering& all, Rendering& some) {
     constexpr int kSeeds = 200;
-    Rendering all(text, choosing(ChosenLights::All)), some(text, choosing(choice));
     ASSERT_FALSE(some.diagnostics.has_errors()) << some.findings();
     std::vector<dvec3> sum(kSize * kSize), squares(kSize * kSize);
     double light = 0;
@@ -97,6 +100,11 @@ void expect_the_same_mean(const std::string& text, ChosenLights choice) {
         }
     EXPECT_LT(worst, 4);
     EXPECT_GT(noise, 0);  // something was chosen
+}
+
+void expect_the_same_mean(const std::string& text, ChosenLights choice) {
+    Rendering all(text, choosing(ChosenLights::All)), some(text, choosing(choice));
+    expect_the_same_mean(all, some);
 }
 
 TEST(LightChoice, HasTheMeanOfAllLights) {
@@ -138,6 +146,83 @@ TEST(LightChoice, HasTheMeanOfAllLightsWithinVolumes) {
                        "<shader stage=\"VOLUME\"/>");
     add_lamps(scene, 40, random_point);
     expect_the_same_mean(scene.text(), ChosenLights::Four);
+}
+
+// Points and spots of glTF, some with a range.
+TEST(LightChoice, HasTheMeanOfAllLightsOfGltf) {
+    GltfText g;
+    g.node(
+        {{"mesh", g.square(g.material({{"pbrMetallicRoughness", {{"roughnessFactor", 1}}}}), 2)}});
+    g.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    auto& lights = g.json["extensions"]["KHR_lights_punctual"]["lights"];
+    Random random(3);
+    for (int k = 0; k < 40; ++k) {
+        nlohmann::json light = {{"type", k % 2 ? "spot" : "point"},
+                                {"intensity", std::pow(10.0, uniform(random, 0, 2))}};
+        if (k % 2)
+            light["spot"] = {{"innerConeAngle", uniform(random, 0, 0.3)},
+                             {"outerConeAngle", uniform(random, 0.4, 1.2)}};
+        if (k % 3) light["range"] = uniform(random, 1, 3);
+        lights.push_back(light);
+        g.node({{"translation",
+                 {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, 0.3, 1.5)}},
+                {"extensions", {{"KHR_lights_punctual", {{"light", k}}}}}});
+    }
+    const auto path = std::filesystem::temp_directory_path() /
+                      fmt::format("kinora_light_choice_{}.gltf", getpid());
+    std::ofstream(path) << g.gltf();
+    auto all = Rendering::of_file(path, choosing(ChosenLights::All)),
+         some = Rendering::of_file(path, choosing(ChosenLights::Four));
+    std::filesystem::remove(path);
+    expect_the_same_mean(*all, *some);
+}
+
+raytrace::Film rib_picture(const std::string& text, ChosenLights choice) {
+    SceneRequest request;
+    request.scene = "x.rib";
+    request.quality = *find_quality(kDefaultQuality);
+    request.quality.light_choice = choice;
+    request.quality.weak_lights = 0;
+    request.lights = LightSet::Scene;
+    request.displays = true;
+    OpenScene scene(request);
+    raytrace::Film film;
+    EXPECT_EQ(scene.open(text), SceneError::None);
+    EXPECT_TRUE(scene.render(0, film));
+    return film;
+}
+
+// Whose lamps stand where their parameters say, over the pixels of one picture.
+TEST(LightChoice, HasTheMeanOfAllLightsOfRenderMan) {
+    std::string text =
+        "Format 32 32 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 Display \"x\" \"file\" \"rgba\" "
+        "WorldBegin Surface \"matte\" ";
+    Random random(4);
+    for (int k = 0; k < 40; ++k) {
+        const std::string from = fmt::format("{} {} {}", uniform(random, -1, 1),
+                                             uniform(random, -1, 1), uniform(random, 1.5, 2.7));
+        text += fmt::format("LightSource \"{}\" {} \"intensity\" {} \"from\" [{}] ",
+                            k % 2 ? "spotlight" : "pointlight", k + 1,
+                            0.02 * std::pow(10.0, uniform(random, -1, 1)), from);
+        if (k % 2)
+            text += fmt::format("\"to\" [{} {} 3] \"coneangle\" {} \"beamdistribution\" {} ",
+                                uniform(random, -1, 1), uniform(random, -1, 1),
+                                uniform(random, 0.3, 1.2), uniform(random, 0, 8));
+    }
+    text += "Polygon \"P\" [-1 -1 3 -1 1 3 1 1 3 1 -1 3] WorldEnd";
+    const raytrace::Film all = rib_picture(text, ChosenLights::All),
+                         some = rib_picture(text, ChosenLights::Four);
+    double sum = 0, squares = 0, light = 0;
+    for (size_t p = 0; p < all.rgba.size(); ++p) {
+        const double more = double(some.rgba[p].x) - double(all.rgba[p].x);
+        sum += more;
+        squares += more * more;
+        light += double(all.rgba[p].x);
+    }
+    const double count = double(all.rgba.size()), mean = sum / count;
+    EXPECT_GT(light / count, 0.01);
+    EXPECT_GT(squares, 0);
+    EXPECT_LT(std::abs(mean), 4 * std::sqrt(squares) / count);
 }
 
 bool same_as_all(const std::string& text, ChosenLights choice) {
