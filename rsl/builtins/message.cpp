@@ -172,6 +172,7 @@ void lightsource(LowerCall& c) {
     if (!c.lights.any_current()) return;
     const std::string* name = c.e.constant_text(c.args[0].c[0]);
     if (!name || Variable::resizable(c) >= 0) {
+        c.context.out.tells_lights_apart = true;
         auto [set, record] = c.lights.current();
         Value light = record_uniform(c.b, set, record, kLightNumber, jit::Type::I);
         return ask(c, QueryKind::Light, light);
@@ -186,6 +187,7 @@ void lightsource(LowerCall& c) {
 // What getlights() gives for the light that the illuminance loop is at: below 0.
 void lighthandle(LowerCall& c) {
     if (!c.lights.any_current()) return;
+    c.context.out.tells_lights_apart = true;
     auto [set, record] = c.lights.current();
     Value handle = record_uniform(c.b, set, record, kLightHandle, jit::Type::I);
     c.set(c.b.sub(c.b.f(-1), c.b.itof(handle)));

@@ -67,6 +67,7 @@ struct LoweredShader {
     bool lit_by_all = false, lit_by_ambient = false;
     bool lit_by_samples = false;  // some integrator asks lights for what they send from directions
     bool reads_bare_light = false;        // kLightBare
+    bool tells_lights_apart = false;      // kLightNumber or kLightHandle
     std::string light_domain = "sphere";  // the directions that lights with sample methods are for
     std::vector<std::string> light_messages;  // names read by lightsource(), columns in this order
     std::vector<int> light_message_components;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "rsl/lower/lower.h"
+#include "runtime/base/math.h"
 #include "runtime/picture/lights/kernels.h"
 
 namespace kinora {
@@ -56,28 +58,58 @@ void darken(const SentLight& light, size_t i) {
 
 }  // namespace
 
-void drop_behind(const SeenPoints& points, Arena& arena, std::span<const SentLight> lights) {
-    if (points.sides & rsl::kLitAround || !known(points.N)) return;
-    const Arena::Mark mark = arena.mark();
-    auto row_of = [&](float value) {
+namespace {
+
+// Whether light along N is seen at each point, and light against it.
+struct SeenSides {
+    SeenSides(const SeenPoints& points, Arena& arena)
+        : along(row_of(points, 0, arena)), against(row_of(points, 0, arena)) {
+        Row signs = row_of(points, 0, arena);
+        for (const SideRow& row : kSides) {
+            if (!(points.sides & row.side)) continue;
+            find_signs(points, row, signs);
+            for (size_t i = 0; i < points.count; ++i) {
+                along[i] = signs[i] >= 0 ? 1.0f : along[i];
+                against[i] = signs[i] <= 0 ? 1.0f : against[i];
+            }
+        }
+    }
+    static Row row_of(const SeenPoints& points, float value, Arena& arena) {
         Row values = arena.allocate_span<float>(points.count);
         std::fill(values.begin(), values.end(), value);
         return values;
-    };
-    // Whether light along N is seen, and light against it.
-    Row signs = row_of(0), along = row_of(0), against = row_of(0);
-    for (const SideRow& row : kSides) {
-        if (!(points.sides & row.side)) continue;
-        find_signs(points, row, signs);
-        for (size_t i = 0; i < points.count; ++i) {
-            along[i] = signs[i] >= 0 ? 1.0f : along[i];
-            against[i] = signs[i] <= 0 ? 1.0f : against[i];
-        }
     }
+    Row along, against;
+};
+
+bool sees_all(const SeenPoints& points) {
+    return points.sides & rsl::kLitAround || !known(points.N);
+}
+
+}  // namespace
+
+void drop_behind(const SeenPoints& points, Arena& arena, std::span<const SentLight> lights) {
+    if (sees_all(points)) return;
+    const Arena::Mark mark = arena.mark();
+    const SeenSides sides(points, arena);
     for (const SentLight& light : lights)
         if (light.casts)
-            light_kernels().darken_unseen(points.N, light.L, along.data(), against.data(),
-                                          points.count, light.Cl);
+            light_kernels().darken_unseen(points.N, light.L, sides.along.data(),
+                                          sides.against.data(), points.count, light.Cl);
+    arena.release(mark);
+}
+
+void find_looks(const SeenPoints& points, Arena& arena, float* const looks[3]) {
+    for (int k = 0; k < 3; ++k) std::fill_n(looks[k], points.count, 0.0f);
+    if (sees_all(points)) return;
+    const Arena::Mark mark = arena.mark();
+    const SeenSides sides(points, arena);
+    for (size_t i = 0; i < points.count; ++i) {
+        const vec3 N(points.N[0][i], points.N[1][i], points.N[2][i]);
+        const float length = glm::length(N), sign = sides.along[i] - sides.against[i];
+        if (sign == 0 || !(length > 0 && std::isfinite(length))) continue;
+        for (int k = 0; k < 3; ++k) looks[k][i] = N[k] * (sign / length);
+    }
     arena.release(mark);
 }
 

@@ -28,6 +28,9 @@ struct SeenPoints {
     const float *N[3], *Ng[3], *I[3];
 };
 
+// The direction about which the kernel looks at each point, of length 1; 0 where that is not one.
+void find_looks(const SeenPoints& points, Arena& arena, float* const looks[3]);
+
 // Makes Cl 0 where the light comes from behind all that the kernel looks about. Pictures keep
 // their bits.
 void drop_behind(const SeenPoints& points, Arena& arena, std::span<const SentLight> lights);

@@ -92,7 +92,8 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
     PixelCosts* costs = hits.depth == 0 ? frame_.insight.costs : nullptr;
     for (const LookRun& run : runs) {
         CostScope cost(costs, memory, hits, run.hits);
-        const size_t most = run.look->lowered.uses_lights ? lights_.most_points() : kGridPoints;
+        const size_t most =
+            run.look->lowered.uses_lights ? lights_.most_points(*run.look) : kGridPoints;
         for (size_t at = 0, n; at < run.hits.size(); at += n) {
             n = std::min(most, run.hits.size() - at);
             if (points + n > most) shade_lit();

@@ -68,13 +68,21 @@ Arriving light_at(const Scene& scene, const LightSource& light, dvec3 point) {
     return {from, attenuation > 0 ? strength / attenuation : 0};
 }
 
+// Of more lights, so many of the strongest are faced: each is summed over all.
+constexpr size_t kMostFaced = 1000;
+
 // How bright a white surface at the middle of the scene is that faces one of the lights.
 double brightest_white(const Scene& scene, const std::vector<const LightSource*>& lights) {
     dvec3 middle = 0.5 * (scene.low + scene.high);
     std::vector<Arriving> arriving;
     for (const LightSource* light : lights) arriving.push_back(light_at(scene, *light, middle));
+    if (arriving.size() > kMostFaced)
+        std::nth_element(
+            arriving.begin(), arriving.begin() + kMostFaced, arriving.end(),
+            [](const Arriving& a, const Arriving& b) { return a.strength > b.strength; });
     double most = 0;
-    for (const Arriving& faced : arriving) {
+    for (size_t f = 0; f < std::min(arriving.size(), kMostFaced); ++f) {
+        const Arriving& faced = arriving[f];
         double sum = 0;
         for (const Arriving& other : arriving) {
             bool ambient = other.from == dvec3(0.0);

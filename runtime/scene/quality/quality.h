@@ -17,6 +17,18 @@ enum class ShadowMode : uint8_t { Auto, Explicit, Off, All };
 enum class DisplacementMode : uint8_t { True, Bump };
 // How joints are blended: by their matrices, as COLLADA has it, or by dual quaternions.
 enum class SkinMethod : uint8_t { Linear, Dual };
+// How many lights of many are chosen for a point.
+enum class ChosenLights : uint8_t {
+    Auto,  // eight where there are many
+    All,
+    One,
+    Two,
+    Four,
+    Eight,
+    Sixteen,
+    ThirtyTwo,
+    SixtyFour
+};
 
 // A setting of each knob: a member a row of knobs.def, which explains it. A preset of --quality, or
 // one with single options put over it. Requests and scenes hold it by value, and what obeys a knob

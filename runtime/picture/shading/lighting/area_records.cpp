@@ -158,7 +158,7 @@ void LightRecords::area_record(Making& making, size_t l, AreaKernel& kernel,
         columns = with_density(statement, out, density, making.grid.memory.arena);
     }
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
-    make_record(making, statement, binding, columns, true, &kernel.samples);
+    make_record(making, statement, binding, binding.messages, columns, true, &kernel.samples);
 }
 
 void LightRecords::area_records(Making& making, size_t l) {
@@ -259,8 +259,8 @@ void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& 
         LightOutputs statement = own;
         std::span<float* const> columns =
             with_density(statement, out, density, making.grid.memory.arena);
-        make_record(making, statement, bindings_.binding(making.grid.look->index, l), columns, true,
-                    &samples);
+        const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
+        make_record(making, statement, binding, binding.messages, columns, true, &samples);
     }
 }
 

@@ -82,13 +82,14 @@ std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& lo
 void LightRecords::report_aims(Diagnostics& diagnostics) const {
     // The interface's lights are aimed by parameters of their own.
     if (frame_.resources.description->file_picture) return;
+    Arena arena;
     for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
         const LightSource& light = frame_.lights.lights[l];
         const ShaderInstance& look = *frame_.shaders.shader_instances[light.look];
         // A shader that does not read its space has another aim, as the default lights have.
         bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
         if (look.area_light || !aims || !bindings_.directed(l)) continue;
-        Arena arena;
+        arena.reset();
         std::span<float*> out = run_probes(frame_, look, arena);
         dvec3 forward(
             current_from_space(frame_.nodes, frame_.pose, "shader", look.space_owner())[2]);

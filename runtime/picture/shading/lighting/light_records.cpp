@@ -58,23 +58,6 @@ const float* ones_column(Arena& arena, size_t count) {
     return column.data();
 }
 
-// The grid's points as its kernel looks for lights. While LIGHTS_DARK counts what arrives on the
-// side that the eye sees, that side is not dropped.
-SeenPoints seen_points(const Grid& grid) {
-    constexpr uint8_t kSeen = rsl::kLitFacing | rsl::kLitFacingByN;
-    SeenPoints points;
-    points.count = grid.count();
-    points.sides = grid.look->lowered.lit_sides;
-    const bool counts = grid.pose.watch_dark > 0 && grid.depth == 0;
-    if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
-    for (size_t k = 0; k < 3; ++k) {
-        points.N[k] = grid.columns[kColN + k];
-        points.Ng[k] = grid.columns[kColNg + k];
-        points.I[k] = grid.columns[kColI + k];
-    }
-    return points;
-}
-
 // `light_begin`: the first record of the light.
 const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs& statement,
                              const LightBinding& binding, size_t light_begin) {
@@ -93,15 +76,32 @@ const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs&
 
 }  // namespace
 
+// While LIGHTS_DARK counts what arrives on the side that the eye sees, that side is not dropped.
+SeenPoints LightRecords::seen_points(const Grid& grid) {
+    constexpr uint8_t kSeen = rsl::kLitFacing | rsl::kLitFacingByN;
+    SeenPoints points;
+    points.count = grid.count();
+    points.sides = grid.look->lowered.lit_sides;
+    const bool counts = grid.pose.watch_dark > 0 && grid.depth == 0;
+    if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
+    for (size_t k = 0; k < 3; ++k) {
+        points.N[k] = grid.columns[kColN + k];
+        points.Ng[k] = grid.columns[kColNg + k];
+        points.I[k] = grid.columns[kColI + k];
+    }
+    return points;
+}
+
 LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     : frame_(frame),
       kernels_(kernels),
       bindings_(frame.resources, frame.lights, frame.shaders),
-      area_lights_(frame, bindings_) {
+      area_lights_(frame, bindings_),
+      choice_(frame.lights, frame.shaders, bindings_) {
     for (size_t l = 0; l < frame.lights.lights.size(); ++l) {
-        every_.push_back(l);
+        all_lights_.every.push_back(l);
         for (const LightOutputs& statement : bindings_.statements(l)) {
-            record_count_ += asked_samples(l, statement, false);
+            all_lights_.records += asked_samples(l, statement, false);
             draws_samples_ |= statement.spread >= 0;
             draws_samples_ |= statement.sampled;
             if (statement.sampled) sampling_.push_back(l);
@@ -134,6 +134,8 @@ void LightRecords::begin_frame(bool all) {
         if (all || bindings_.asked(l))
             reaches_[l] = LightBindings::reach(frame_.nodes, frame_.pose, look_of_light(frame_, l));
     find_present();
+    if (!all) choice_.begin_frame(frame_.nodes, frame_.pose, frame_.quality.light_choice);
+    if (!choice_.groups().empty()) find_others();
 }
 
 // By the box of the whole scene, so that the grids need not ask of each light again.
@@ -148,15 +150,33 @@ void LightRecords::find_present() {
     for (int k = 0; k < 3; ++k)
         scene.half[k] = glm::dot(glm::abs(glm::transpose(current)[k]), half);
     far_ = 4 * float(scene.radius);  // from any point of the scene
-    present_.clear();
+    all_lights_.present.clear();
     for (size_t l = 0; l < reaches_.size(); ++l)
-        if (!reaches_[l].bounded() || reaches(reaches_[l], scene)) present_.push_back(l);
+        if (!reaches_[l].bounded() || reaches(reaches_[l], scene)) all_lights_.present.push_back(l);
 }
 
-size_t LightRecords::most_points() const {
+void LightRecords::find_others() {
+    auto copy = [&](const std::vector<size_t>& from, std::vector<size_t>& to) {
+        to.clear();
+        for (size_t l : from)
+            if (!choice_.holds(l)) to.push_back(l);
+    };
+    copy(all_lights_.every, others_.every);
+    copy(all_lights_.present, others_.present);
+    others_.records = choice_.groups().size() * choice_.count();
+    for (size_t l : others_.every)
+        for (const LightOutputs& statement : bindings_.statements(l))
+            others_.records += asked_samples(l, statement, false);
+}
+
+size_t LightRecords::most_records(const ShaderInstance& look) const {
+    return chooses(look) ? others_.records : all_lights_.records;
+}
+
+size_t LightRecords::most_points(const ShaderInstance& look) const {
     constexpr size_t kCacheBytes = 1 << 20, kRecordBytes = 7 * sizeof(float);  // L, Cl and lit
     constexpr size_t kLeast = 64;
-    const size_t points = kCacheBytes / (kRecordBytes * std::max<size_t>(record_count_, 1));
+    const size_t points = kCacheBytes / (kRecordBytes * std::max<size_t>(most_records(look), 1));
     return std::clamp(points / kLeast * kLeast, kLeast, kGridPoints);
 }
 
@@ -215,7 +235,7 @@ void LightRecords::find_points(Grid& grid) {
     }
     at.normals = grid.normals.data();
     at.rng = grid.columns[kColRng];
-    if (draws_samples_) {
+    if (draws_samples_ || chooses(*grid.look)) {
         std::span<raytrace::SampleSeries> series =
             grid.memory.arena.allocate_span<raytrace::SampleSeries>(at.count);
         for (size_t i = 0; i < at.count; ++i)
@@ -265,12 +285,14 @@ bool LightRecords::is_dark(const Grid& grid, size_t l, const Sphere& points) con
 
 jit::RecordSet LightRecords::make_records(Grid& grid, const LightPoints& at) {
     Arena& arena = grid.memory.arena;
-    Making making{grid, at, arena.allocate_span<jit::Record>(record_count_),
-                  arena.allocate_span<SentLight>(record_count_)};
+    const bool chosen = chooses(*grid.look);
+    const Lights& lights = chosen ? others_ : all_lights_;
+    Making making{grid, at, arena.allocate_span<jit::Record>(lights.records),
+                  arena.allocate_span<SentLight>(lights.records)};
     const Sphere lit = sphere_about(at.P, at.count);
     // At other points, and within volumes, handles count all lights.
     const bool leaves_out = at.own && !all_ && grid.look->kind == ShaderInstanceKind::Surface;
-    for (size_t l : leaves_out ? present_ : every_) {
+    for (size_t l : leaves_out ? lights.present : lights.every) {
         const bool dark = is_dark(grid, l, lit);
         if (dark && leaves_out) continue;
         making.light_begin = making.record_count;
@@ -279,6 +301,8 @@ jit::RecordSet LightRecords::make_records(Grid& grid, const LightPoints& at) {
         else
             make_records(making, l);
     }
+    if (chosen)
+        for (const LampGroup& group : choice_.groups()) chosen_records(making, group);
     shadow(making);
     return {int32_t(making.record_count), making.records.data()};
 }
@@ -310,7 +334,9 @@ void LightRecords::shadow(const Making& making) const {
     std::span<const SentLight> sent = making.sent.first(making.sent_count);
     Arena& arena = grid.memory.arena;
     if (making.at.own) drop_behind(seen_points(grid), arena, sent);
-    drop_weak(float(frame_.quality.weak_lights), making.at.count, arena, sent);
+    // Lights that are chosen are weak where they count most.
+    if (!chooses(*grid.look))
+        drop_weak(float(frame_.quality.weak_lights), making.at.count, arena, sent);
     for (const SentLight& light : sent)
         if (light.casts) grid.shadows->cast(grid, making.at, light);
 }
@@ -373,12 +399,12 @@ void LightRecords::make_records(Making& making, size_t l) {
 void LightRecords::plain_records(Making& making, size_t l) {
     LitGrid lit(frame_, making, l);
     std::span<float*> out = run_kernel(making, l, lit, nullptr);
+    const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))
         if (statement.spread >= 0)
             cone_records(making, l, statement, lit, out);
         else
-            make_record(making, statement, bindings_.binding(making.grid.look->index, l), out,
-                        false, nullptr);
+            make_record(making, statement, binding, binding.messages, out, false, nullptr);
 }
 
 namespace {
@@ -415,7 +441,7 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
     if (wide)
         making.grid.note_random();
     else
-        make_record(making, statement, binding, out, false, nullptr);
+        make_record(making, statement, binding, binding.messages, out, false, nullptr);
     std::span<float*> rows = arena.allocate_span<float*>(out.size());
     const bool anew = wide && reads_sent_L(*lit.look);
     SkyCones cones{at.count,         {}, angle, at.series, raytrace::hash(uint32_t(l), frame_.seed),
@@ -436,7 +462,7 @@ void LightRecords::cone_records(Making& making, size_t l, const LightOutputs& st
                 for (size_t i = 0; i < padded(at.count); ++i) share[i] = whole[i] / float(samples);
                 rows[size_t(statement.Cl[c])] = share;
             }
-            make_record(making, statement, binding, rows, true, nullptr);
+            make_record(making, statement, binding, binding.messages, rows, true, nullptr);
         }
     }
     // Records were counted before: those without light are dark.
@@ -455,12 +481,13 @@ const float* copy_of(const float* column, size_t count, Arena& arena) {
 }  // namespace
 
 void LightRecords::make_record(Making& making, const LightOutputs& statement,
-                               const LightBinding& binding, std::span<float* const> out,
-                               bool sample, const LightSamples* samples) const {
+                               const LightBinding& binding, std::span<const int> messages,
+                               std::span<float* const> out, bool sample,
+                               const LightSamples* samples) const {
     const LightPoints& at = making.at;
     Arena& arena = making.grid.memory.arena;
     std::span<const float*> columns =
-        arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
+        arena.allocate_span<const float*>(rsl::kLightMessages + messages.size());
     std::fill(columns.begin(), columns.end(), at.zeros);
     auto set = [&](size_t column, int output) {
         if (output >= 0) columns[column] = out[size_t(output)];
@@ -475,8 +502,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         columns[rsl::kLightBare + k] = copy_of(columns[rsl::kLightCl + k], padded(at.count), arena);
     if (statement.lit < 0) columns[rsl::kLightLit] = ones_column(arena, at.count);
     set(rsl::kLightLit, statement.lit);
-    for (size_t m = 0; m < binding.messages.size(); ++m)
-        set(rsl::kLightMessages + m, binding.messages[m]);
+    for (size_t m = 0; m < messages.size(); ++m) set(rsl::kLightMessages + m, messages[m]);
     if (statement.kind != rsl::kLightAmbient && statement.L[0] >= 0) {
         SentLight& sent = making.sent[making.sent_count];
         sent = {};

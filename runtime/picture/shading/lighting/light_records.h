@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "runtime/picture/lights/light_choice.h"
 #include "runtime/picture/lights/light_samples.h"
 #include "runtime/picture/lights/unseen_light.h"
 #include "runtime/picture/shading/kernel_runner.h"
@@ -38,8 +39,8 @@ class LightRecords {
     // Names the lights that shine only against where they look.
     void report_aims(Diagnostics& diagnostics) const;
 
-    // Of a grid: fewer where there are many lights, so that all their records stay in the cache.
-    size_t most_points() const;
+    // Of a grid of the look: fewer where there are many records, so that all stay in the cache.
+    size_t most_points(const ShaderInstance& look) const;
     const LightBindings& bindings() const { return bindings_; }
     const AreaLights& areas() const { return area_lights_; }
     // What every grid with lights needs for them.
@@ -72,6 +73,13 @@ class LightRecords {
     bool is_dark(const Grid& grid, size_t light, const Sphere& points) const;
     void make_records(Making& making, size_t light);
     void find_present();
+    void find_others();
+    // Whether points of the look are lit by a few of many lights.
+    bool chooses(const ShaderInstance& look) const;
+    size_t most_records(const ShaderInstance& look) const;
+    void chosen_records(Making& making, const LampGroup& group);
+    // The grid's points as its kernel looks for lights.
+    static SeenPoints seen_points(const Grid& grid);
     static std::span<PointRays> accounts(const Making& making);
     // All that a light's kernel reads, and its run.
     struct LitGrid : Grid {  // the lit points, for the light's kernel
@@ -121,7 +129,8 @@ class LightRecords {
                       size_t end) const;
     // What is sent of it is shadowed at once where it is one `sample` of several.
     void make_record(Making& making, const LightOutputs& statement, const LightBinding& binding,
-                     std::span<float* const> out, bool sample, const LightSamples* samples) const;
+                     std::span<const int> messages, std::span<float* const> out, bool sample,
+                     const LightSamples* samples) const;
     // Leaves in the colours what arrives. Of a light on geometry at once: its sample goes with it.
     void shadow(const Making& making) const;
     void shadow_sample(const Making& making, const SentLight& sent) const;
@@ -130,13 +139,19 @@ class LightRecords {
     KernelRunner& kernels_;
     LightBindings bindings_;
     AreaLights area_lights_;
+    LightChoice choice_;
     std::vector<LightReach> reaches_;  // of each light, in this frame
-    std::vector<size_t> every_;        // light
-    std::vector<size_t> present_;      // those whose light may reach some surface in this frame
-    std::vector<size_t> sampling_;     // those with sample methods
-    std::vector<size_t> sending_;      // those whose kernels send rays
+    // Lights in their order.
+    struct Lights {
+        std::vector<size_t> every;
+        std::vector<size_t> present;  // those whose light may reach some surface in this frame
+        size_t records = 0;           // of one run
+    };
+    Lights all_lights_;
+    Lights others_;                 // those that no group of choice_ holds
+    std::vector<size_t> sampling_;  // those with sample methods
+    std::vector<size_t> sending_;   // those whose kernels send rays
     bool all_ = false;
-    size_t record_count_ = 0;      // of one run
     bool need_rng_ = false;        // some light's kernel does
     bool draws_samples_ = false;   // for some light
     bool sends_indirect_ = false;  // some light's kernel gathers indirect light

@@ -123,8 +123,8 @@ void LightRecords::add_sample(Making& making, size_t l, std::span<float* const> 
                               SampleColumnList sample) const {
     LightOutputs statement = bindings_.statements(l)[0];
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
-    make_record(making, statement, binding, columns_of(making, statement, out, sample), true,
-                nullptr);
+    std::span<float* const> columns = columns_of(making, statement, out, sample);
+    make_record(making, statement, binding, binding.messages, columns, true, nullptr);
 }
 
 // ---- from directions ----------------------------------------------------------------------------

@@ -94,14 +94,16 @@ TEST(Presets, AreTheKnownOnes) {
     EXPECT_EQ(knob_texts(draft),
               "spp=1 filter=gaussian math=fast robust=off bvh=refit refit-limit=1.3 keys=0 "
               "rotation=slerp skin=linear influences=0 displacement=bump dice=8 rays=4 bounces=1 "
-              "split=1 ray-limit=1000 light-samples=0 samples-behind=1 clamp-indirect=0 texture-filter=anisotropic derivatives=on "
-              "weak-lights=0.00195 opacity-threshold=0 shadows=auto depth=half");
+              "split=1 ray-limit=1000 light-samples=0 samples-behind=1 clamp-indirect=0 "
+              "light-choice=auto texture-filter=anisotropic derivatives=on weak-lights=0.00195 "
+              "opacity-threshold=0 shadows=auto depth=half");
     const Quality& final_ = *find_quality("final");
     EXPECT_EQ(knob_texts(final_),
               "spp=64 filter=gaussian math=precise robust=on bvh=refit refit-limit=1.3 keys=0 "
               "rotation=slerp skin=linear influences=0 displacement=true dice=1 rays=16 bounces=2 "
-              "split=1 ray-limit=1000 light-samples=0 samples-behind=1 clamp-indirect=0 texture-filter=anisotropic derivatives=on "
-              "weak-lights=0.00024 opacity-threshold=0 shadows=auto depth=half");
+              "split=1 ray-limit=1000 light-samples=0 samples-behind=1 clamp-indirect=0 "
+              "light-choice=auto texture-filter=anisotropic derivatives=on weak-lights=0.00024 "
+              "opacity-threshold=0 shadows=auto depth=half");
     EXPECT_EQ(find_quality("best"), nullptr);
 }
 
