@@ -125,18 +125,34 @@ void for_each_lane(const jit::ServiceCall& call, int map_row, TextureStore& stor
 
 }  // namespace
 
+// The light of all lanes at once.
 void lookup_map_light(const jit::ServiceCall& call, TextureStore& store) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::maplight, name).first;
     };
-    for_each_lane(call, at("map"), store, [&](int lane, const MapDistribution& distribution) {
+    constexpr auto looks_at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::environment, name).first;
+    };
+    constexpr int kLanes = jit::kMaxLanes;
+    alignas(64) float args[rsl::argument_count(rsl::Service::environment) * kLanes] = {},
+                                                                            light[4 * kLanes] = {};
+    for (int lane = 0; lane < kLanes; ++lane) {
+        args[looks_at("map") * kLanes + lane] = argument(call, at("map"), lane);
+        for (int k = 0; k < 3; ++k)
+            args[(looks_at("R") + k) * kLanes + lane] = argument(call, at("D") + k, lane);
         const int32_t map = jit::bits_of(argument(call, at("map"), lane));
-        vec3 D, light(1.0f);
-        for (int k = 0; k < 3; ++k) D[k] = argument(call, at("D") + k, lane);
-        if (store.find(map)) light_of_map(store, map, {&D, 1}, &light);
-        light = sound(light);
-        for (int k = 0; k < 3; ++k) call.results[k * jit::kMaxLanes + lane] = light[k];
-        call.results[3 * jit::kMaxLanes + lane] = distribution.density(D);
+        if ((call.mask >> lane & 1) && !store.find(map)) args[looks_at("fill") * kLanes + lane] = 1;
+    }
+    lookup_environment({nullptr, args, light, call.mask, 0, kLanes}, store);
+    for_each_lane(call, at("map"), store, [&](int lane, const MapDistribution& distribution) {
+        vec3 D, seen;
+        for (int k = 0; k < 3; ++k) {
+            D[k] = argument(call, at("D") + k, lane);
+            seen[k] = light[k * kLanes + lane];
+        }
+        seen = sound(seen);
+        for (int k = 0; k < 3; ++k) call.results[k * kLanes + lane] = seen[k];
+        call.results[3 * kLanes + lane] = distribution.density(D);
     });
 }
 

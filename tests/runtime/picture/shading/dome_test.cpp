@@ -339,6 +339,24 @@ TEST(Dome, GathersMeetItOnlyWhereTheyTakeAColor) {
     EXPECT_EQ(r.color(8, 8), vec3(0.5f, 1, 0)) << r.findings();
 }
 
+// What generateSamples() says of its directions is what evaluateSamples() says of them.
+TEST(SunSky, GivesTheSameLightWhoeverChooses) {
+    auto mean = [](int strategy, double sun) {
+        SceneText scene = floor_scene(lobe(true), mis(strategy));
+        scene.rsl_light("sky", std::string(library_shader_text("sunsky")),
+                        "<rotate>1 0 0 90</rotate>",
+                        fmt::format("<bind symbol=\"sun\"><float>{}</float></bind>", sun));
+        Rendering r(scene.text());
+        return mean_of(r, 16, 64).mean;
+    };
+    const double sky = mean(0, 0), whole = mean(0, 1);
+    EXPECT_GT(sky, 0.01);
+    EXPECT_GT(whole, 3 * sky);  // the sun of a clear day
+    EXPECT_NEAR(mean(1, 0) / sky, 1, 0.01);
+    EXPECT_NEAR(mean(2, 0) / sky, 1, 0.01);
+    EXPECT_NEAR(mean(1, 1) / whole, 1, 0.01);
+}
+
 // ---- files --------------------------------------------------------------------------------------
 
 TEST(Dome, WhatIsWrongIsTold) {
