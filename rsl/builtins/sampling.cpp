@@ -4,21 +4,11 @@
 
 #include "rsl/builtins/table.h"
 #include "rsl/lower/builtin_call.h"
+#include "rsl/model/heuristics.h"
 #include "rsl/reference/reference_p.h"
 #include "rsl/reference/service_calls_p.h"
 
 namespace kinora::rsl {
-
-namespace {
-
-struct Heuristic {
-    const char* name;
-    float power;
-};
-constexpr Heuristic kHeuristics[] = {{"balance", 1}, {"power", 2}, {"veachpower2", 2}};
-constexpr float kUsualPower = 2;
-
-}  // namespace
 
 namespace lower_sampling {
 
@@ -62,7 +52,7 @@ void tracesample(LowerCall& c) {
 
 void misheuristic(LowerCall& c) {
     auto& b = c.b;
-    Value name = c.args[0].c[0], power = b.f(kUsualPower), known = b.m(false);
+    Value name = c.args[0].c[0], power = b.f(kHeuristics[0].power), known = b.m(false);
     for (const Heuristic& row : kHeuristics) {
         Value is = b.op(jit::Op::IEq, name, b.i(intern(row.name)));
         power = b.select(is, b.f(row.power), power);
@@ -161,7 +151,7 @@ void misheuristic(RefCall<Real>& c) {
     for (const Heuristic& row : kHeuristics)
         if (c.args[0].text() == row.name) power = row.power;
     c.eval.result.faults += power == 0;
-    c.set(Dual<Real>(Real(power == 0 ? kUsualPower : power)));
+    c.set(Dual<Real>(Real(power == 0 ? kHeuristics[0].power : power)));
 }
 template <class Real>
 void samplingdomain(RefCall<Real>& c) {

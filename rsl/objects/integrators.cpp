@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
+#include <ranges>
 #include <set>
 
+#include "rsl/model/heuristics.h"
 #include "rsl/objects/build_tree.h"
 #include "rsl/objects/light_samples.h"
 #include "rsl/syntax/ast_parts.h"
@@ -42,7 +45,6 @@ constexpr std::string_view kGroupResults[] = {"groupeddiffuseresults", "groupeds
 
 // What decides how directlighting() weighs, in the order of the functions' parameters.
 constexpr std::string_view kWeighing[] = {"mis", "diffusemis", "heuristic"};
-constexpr std::string_view kHeuristics[] = {"veachpower2", "power", "balance"};
 constexpr std::string_view kDomains[] = {"hemisphere", "sphere"};
 
 // Names that no source can have.
@@ -203,9 +205,9 @@ class ClassIntegrators {
             add_groups(given, make, args);
             args.push_back(given.weighing[0] ? given.weighing[0] : make.number(1));
             args.push_back(given.weighing[1] ? given.weighing[1] : make.number(0));
-            args.push_back(
-                make.call("misheuristic",
-                          {given.weighing[2] ? given.weighing[2] : make.text(kHeuristics[0])}));
+            args.push_back(make.call(
+                "misheuristic",
+                {given.weighing[2] ? given.weighing[2] : make.text(kHeuristics[0].name)}));
         } else {
             args.push_back(make.call(row.name, given.hints));
             args.push_back(given.maxdist ? given.maxdist : make.number(1e30));
@@ -232,11 +234,15 @@ class ClassIntegrators {
         return hints;
     }
 
-    // False where a literal is none of these; what else it may be is known when the shader runs.
-    bool is_among(const Integrator& row, std::string_view pair, const Expr& value,
-                  std::span<const std::string_view> words) {
+    // False where a literal is none of the words, which `word` makes of the rows; what else it may
+    // be is known when the shader runs.
+    template <class Rows, class Word = std::identity>
+    bool is_among(const Integrator& row, std::string_view pair, const Expr& value, const Rows& rows,
+                  Word word = {}) {
         const auto* text = as_if<StringExpr>(&value);
-        if (!text || std::ranges::count(words, text->value)) return true;
+        auto words = rows | std::views::transform(word);
+        if (!text || std::ranges::any_of(words, [&](auto w) { return w == text->value; }))
+            return true;
         report(Code::RSL_PAIR_VALUE, value.span, pair, row.name, text->value,
                fmt::format("{}", fmt::join(words, " or ")));
         return false;
@@ -264,7 +270,7 @@ class ClassIntegrators {
         const bool text = value->kind == ExprKind::String, number = value->kind == ExprKind::Number;
         if (row.pairs != 2 || at == std::size(kWeighing)) return false;
         if (name == "heuristic" ? number : text) return false;  // the hints' finding
-        *fits = name == "heuristic" ? is_among(row, name, *value, kHeuristics)
+        *fits = name == "heuristic" ? is_among(row, name, *value, kHeuristics, &Heuristic::name)
                                     : is_strategy(row, name, *value);
         given->weighing[at] = value;
         return true;

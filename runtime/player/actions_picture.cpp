@@ -22,6 +22,17 @@ CommandResult expose(PlayerCore& core, double stops) {
     return {};
 }
 
+// The scene is read again with an option, of the request already. A session's options are the
+// words, which then say the same: the new one stands for those that it replaces.
+template <class F>
+void open_with(PlayerCore& core, std::string word, F&& replaces) {
+    std::erase_if(core.request.words, [&](const std::string& given) {
+        return replaces(std::string_view(given).substr(0, given.find('=')));
+    });
+    core.request.words.push_back(std::move(word));
+    core.open_again();
+}
+
 // The picture of the state as it is: without a clock refined where that is asked for.
 std::shared_ptr<const Picture> picture_now(PlayerCore& core) {
     core.send_order();
@@ -122,14 +133,29 @@ CommandResult action_quality(PlayerCore& core, const Arguments& a) {
     picture.refine = at != names.begin();
     if (!picture.refine || *at == picture.quality) return {};
     core.request.quality = *find_quality(*at);
-    // A session's options are the words, which say the same.
-    std::erase_if(core.request.words, [](const std::string& word) {
-        std::string_view option = std::string_view(word).substr(0, word.find('='));
+    core.state.picture.quality = *at;
+    open_with(core, "--quality=" + *at, [](std::string_view option) {
         return option == "--quality" || (option.starts_with("--") && find_knob(option.substr(2)));
     });
-    core.request.words.push_back("--quality=" + *at);
-    core.state.picture.quality = *at;
-    core.open_again();
+    return {};
+}
+
+CommandResult action_gi(PlayerCore& core, const Arguments& a) {
+    constexpr double kMostBounces = 64;
+    constexpr uint32_t kUsualBounces = 2;
+    if (!core.info) return refused("there is no scene yet");
+    const uint32_t before = core.request.gi;
+    uint32_t bounces = before ? 0 : kUsualBounces;
+    if (a.has(0)) {
+        const double wanted = a.number(0);
+        if (!(wanted >= 0 && wanted <= kMostBounces && wanted == std::floor(wanted)))
+            return refused("gi takes 0 to 64 bounces", 1);
+        bounces = uint32_t(wanted);
+    }
+    if (bounces == before) return {};
+    core.request.gi = core.state.picture.bounces = bounces;
+    open_with(core, fmt::format("--gi={}", bounces),
+              [](std::string_view option) { return option == "--gi"; });
     return {};
 }
 

@@ -209,6 +209,7 @@ void PlayerCore::take_scene(std::unique_ptr<MadeScene> made) {
     frame_findings.clear();
     if (std::ranges::find(info->lights, state.picture.light) == info->lights.end())
         state.picture.light.clear();
+    state.picture.bounces = request.gi;
     state.picture.quality.clear();
     for (const Quality& preset : qualities())
         if (knob_texts(preset) == knob_texts(request.quality)) state.picture.quality = preset.name;

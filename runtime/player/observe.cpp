@@ -39,9 +39,9 @@ std::string text_of(const PictureState& p) {
     return fmt::format(
         "{}x{}, {} stops, tone {}, aov '{}', false color {}, {} a second, adapts {}, filters {}, "
         "refines {}, "
-        "wipe '{}' at {}, light '{}', quality '{}', rays {}",
+        "wipe '{}' at {}, light '{}', quality '{}', indirect light {}, rays {}",
         p.width, p.height, p.exposure, int(p.tone), p.aov, p.false_color, p.hold_rate, p.adapt,
-        p.filter, p.refine, p.wipe, p.wipe_at, p.light, p.quality, p.rays);
+        p.filter, p.refine, p.wipe, p.wipe_at, p.light, p.quality, p.bounces, p.rays);
 }
 
 std::string text_of(const Selection& selection) {

@@ -52,6 +52,7 @@ struct PictureState {
     bool filter = true;            // the noise of pictures that are not refined
     bool refine = true;            // to the quality of kinora-render when nothing moves
     std::string quality;           // the preset; "" single options were put over one
+    uint32_t bounces = 0;          // of indirect light that every scene has
     std::vector<TradeStop> stops;  // while the panel `quality` is open: of this view
     std::string light;             // the one that shines alone, as the scene lists it; "" all
     std::string wipe;              // the picture kept by `keep`, left of `wipe_at`; "" none

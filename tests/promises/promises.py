@@ -15,7 +15,7 @@ TABLE = HERE / "promises.table"
 TESTS = HERE.parent
 # Suites of which each test stands for a promise.
 SUITES = ("Extremes", "SamplerExtremes", "SkinExtremes", "ExtremeMesh", "RenderExtremes", "LongSources", "FarAndSmall",
-          "Cracks", "SkinTwist", "RiExtremes")
+          "Cracks", "SkinTwist", "RiExtremes", "LightExtremes")
 TIERS = ("precise", "fast", "both", "-")
 # Stages that machine code or intrinsics are made for: their tests run on AArch64 too.
 PORTED = {"jit", "rsl", "anim", "skin"}

@@ -201,6 +201,26 @@ TEST(Quality, IsThatOfTheOption) {
     EXPECT_NE(draft.script("quality superb"), "");
 }
 
+// As kinora-render --gi has it: the same picture, and the words of a session.
+TEST(IndirectLightCommand, IsThatOfTheOption) {
+    SceneRequest request = small_request(scene_path("scenes/court.dae"));
+    Played without(request);
+    request.gi = 2;
+    Played with(request);
+    EXPECT_EQ(with.player.state().picture.bounces, 2u);
+    const std::vector<vec4> plain = picture_of(without.player)->film.rgba;
+    const std::vector<vec4> lit = picture_of(with.player)->film.rgba;
+    ASSERT_NE(plain, lit);
+    EXPECT_EQ(without.script("orbit 0 0; camera; gi"), "");
+    EXPECT_EQ(picture_of(without.player)->film.rgba, lit);
+    EXPECT_EQ(without.player.state().picture.bounces, 2u);
+    EXPECT_EQ(without.script("gi"), "");
+    EXPECT_EQ(picture_of(without.player)->film.rgba, plain);
+    EXPECT_EQ(without.script("gi 2; orbit 0 0; camera"), "");
+    EXPECT_EQ(picture_of(without.player)->film.rgba, lit);
+    for (const char* wrong : {"gi -1", "gi 1.5", "gi 65"}) EXPECT_NE(without.script(wrong), "");
+}
+
 // Each stop's picture against the best of the same view, as kinora-render's own comparison says.
 TEST(Quality, StopsHaveTheirErrors) {
     SceneRequest request = small_request(scene_path("scenes/matte.dae"));

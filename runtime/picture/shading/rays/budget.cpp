@@ -45,14 +45,17 @@ float left_of(const PointBudget& budget) {
     return budget.allowance * budget.account->kept;
 }
 
-// The allowance of each of so many rays of a call. Never 0: calls behind them have a chance.
-float give(const PointBudget& budget, int rays) {
+// The allowance of each of so many rays of a call. Never 0: calls behind them have a chance. One
+// ray alone has at least the rays of its own path: halved at each hit, 1000 would end after ten.
+float give(const PointBudget& budget, int rays, uint32_t path = 0) {
+    constexpr float kRounding = 1.001f, kLeastKept = 1e-3f;
     PointRays& account = *budget.account;
     if (account.calls < 0xffff) ++account.calls;
     const float rest = std::max(left_of(budget) - float(rays), left_of(budget) / 4);
-    const float part = part_of_rest(account, rays);
-    account.kept = rest * (1 - part) / budget.allowance;
-    return rest * part / float(rays);
+    float given = rest * part_of_rest(account, rays);
+    if (rays == 1) given = std::max(given, kRounding * float(path));
+    account.kept = std::max(rest - given, kLeastKept) / budget.allowance;
+    return given / float(rays);
 }
 
 void note_thinned(const PointBudget& budget) {
@@ -106,7 +109,7 @@ AllowedCall allow_path(const PointBudget& budget, int samples, uint32_t bounces,
     const float paths = left_of(budget) / float(bounces);
     const int fitting = int(std::min(paths, float(samples)));
     if (fitting < samples) note_thinned(budget);
-    if (fitting > 0) return {fitting, give(budget, fitting), 1};
+    if (fitting > 0) return {fitting, give(budget, fitting, bounces - 1), 1};
     const float chance = std::max(kLeastChance, paths);
     give(budget, 1);
     if (number >= chance) return {};
