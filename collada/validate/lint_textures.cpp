@@ -15,7 +15,8 @@ void lint_textures(Lint& lint) {
         return;
     }
     for (const Element* instance : lint.named("instance_image"))
-        lint.diag.report(Code::TEX_INSTANCE_IMAGE_1_4, lint.where(*instance));
+        if (instance->parent->name != "environment")  // which is our own (docs/format.md)
+            lint.diag.report(Code::TEX_INSTANCE_IMAGE_1_4, lint.where(*instance));
 }
 
 }  // namespace kinora::collada

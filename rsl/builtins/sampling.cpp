@@ -46,7 +46,7 @@ void tracesample(LowerCall& c) {
     Value counted = b.select(b.eq(c.f(2), b.f(0)), b.i(0), b.i(1));
     auto seen = c.services.call(
         Service::trace, std::array{seed[0], seed[1], P[0], P[1], P[2], D[0], D[1], D[2], c.f(1),
-                                   b.f(-1), c.f(3), b.f(0), b.i(0), b.f(-1), b.f(-1), counted});
+                                   b.f(-1), c.f(3), b.f(0), b.i(0), c.f(4), b.f(-1), counted});
     c.set(V3{seen[0], seen[1], seen[2]});
 }
 
@@ -142,7 +142,9 @@ void tracesample(RefCall<Real>& c) {
     add(args, c.args[1]);
     args.push_back(-1);
     add(args, c.args[3]);
-    for (double x : {0.0, 0.0, -1.0, -1.0, double(c.args[2].c[0].x != 0)}) args.push_back(x);
+    for (double x : {0.0, 0.0}) args.push_back(x);
+    add(args, c.args[4]);
+    for (double x : {-1.0, double(c.args[2].c[0].x != 0)}) args.push_back(x);
     set_from(c, c.eval.service(Service::trace, args));
 }
 template <class Real>
@@ -219,7 +221,7 @@ const Builtin kRows[] = {
      "What lights with sample methods send from a direction, for illuminance: samplinglights("
      "direction, density, power).",
      kSurface},
-    {"tracesample", "c=vfff", lower::tracesample, KINORA_RSL_REF(ref::tracesample),
+    {"tracesample", "c=vffff", lower::tracesample, KINORA_RSL_REF(ref::tracesample),
      kService | kTraces | kVaryingResult | kForHeaders, 0,
      "What a ray from P sees: tracesample(direction, maxdist, counted, samples); counted: "
      "directlighting() gives the specular light of the lights; samples: this one is one of so "

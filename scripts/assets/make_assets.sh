@@ -9,6 +9,7 @@ python3 "$here/make_tintoy.py" "$shaders" "$scenes/tintoy.dae"
 python3 "$here/make_court.py" "$shaders/.." "$scenes/court.dae"
 python3 "$here/make_layers.py" "$scenes/layers.dae"
 python3 "$here/make_attach.py" "$scenes/attach.dae"
+python3 "$here/make_atelier.py" "$scenes/atelier.dae"
 python3 "$here/make_studio.py" "$scenes/studio.dae"
 
 if ! command -v blender >/dev/null; then

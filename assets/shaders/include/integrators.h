@@ -214,11 +214,13 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
         for (i = 0; i < count; i += 1) {                                                       \
             vector towards = materialsamples[i]->direction;                                    \
             float pdf = materialsamples[i]->materialPdf;                                       \
-            if (pdf > 0 && towards . towards > 0)                                              \
-                sum += materialsamples[i]->materialResponse / pdf *                            \
-                       tracesample(towards, maxdist, counted, count);                          \
+            if (pdf > 0 && towards . towards > 0) {                                            \
+                color share = materialsamples[i]->materialResponse / (pdf * count);            \
+                sum += share * tracesample(towards, maxdist, counted, count,                   \
+                                           max(share[0], max(share[1], share[2])));            \
+            }                                                                                  \
         }                                                                                      \
-        return sum / max(1, count);                                                            \
+        return sum;                                                                            \
     }
 KINORA_INDIRECT(integrate_indirect_keeping, , )
 KINORA_INDIRECT(integrate_indirect_of_keeping, shader which;, which->)

@@ -73,12 +73,17 @@ bool LightChoice::Standing::alike(const Standing& other) const {
     return kind == other.kind && nondiffuse == other.nondiffuse && nonspecular == other.nonspecular;
 }
 
-void LightChoice::find_standing(const SceneNodes& nodes, const Pose& pose) {
+// Both are in the order of the lights.
+void LightChoice::find_standing(const SceneNodes& nodes, const Pose& pose,
+                                std::span<const size_t> present) {
     standing_.clear();
+    auto next = present.begin();
     for (const Candidate& candidate : candidates_) {
+        next = std::lower_bound(next, present.end(), candidate.light);
+        if (next == present.end() || *next != candidate.light) continue;
         const LightSource& source = lights_.lights[candidate.light];
         const auto lamp = lamp_of(nodes, pose, *shaders_.shader_instances[source.look]);
-        if (!lamp) continue;
+        if (!lamp || lamp->strength == 0) continue;
         const float nondiffuse = candidate.nondiffuse.in(pose),
                     nonspecular = candidate.nonspecular.in(pose);
         if (std::isnan(nondiffuse) || std::isnan(nonspecular)) continue;
@@ -89,14 +94,15 @@ void LightChoice::find_standing(const SceneNodes& nodes, const Pose& pose) {
     });
 }
 
-void LightChoice::begin_frame(const SceneNodes& nodes, const Pose& pose, ChosenLights wanted) {
+void LightChoice::begin_frame(const SceneNodes& nodes, const Pose& pose,
+                              std::span<const size_t> present, ChosenLights wanted) {
     const bool usual = wanted == ChosenLights::Auto;
     const size_t number =
         wanted < ChosenLights::One ? 0 : size_t(1) << (size_t(wanted) - size_t(ChosenLights::One));
     count_ = usual ? kUsualCount : number;
     least_ = usual ? kUsualLeast : number;
     if (count_ == 0 || candidates_.size() <= least_) return;
-    find_standing(nodes, pose);
+    find_standing(nodes, pose, present);
     if (standing_ == before_) return;
     make_groups();
     std::swap(standing_, before_);

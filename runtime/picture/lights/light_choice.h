@@ -23,8 +23,10 @@ class LightChoice {
   public:
     LightChoice(const SceneLights& lights, const SceneShaders& shaders,
                 const LightBindings& bindings);
-    // Makes the groups of a pose. Where its lamps are those of the frame before, they stand.
-    void begin_frame(const SceneNodes& nodes, const Pose& pose, ChosenLights wanted);
+    // Makes the groups of a pose, of those `present` that are not black. Where its lamps are those
+    // of the frame before, they stand.
+    void begin_frame(const SceneNodes& nodes, const Pose& pose, std::span<const size_t> present,
+                     ChosenLights wanted);
 
     // The most lights that are chosen of a group for a point.
     size_t count() const { return count_; }
@@ -51,7 +53,7 @@ class LightChoice {
         bool operator==(const Standing&) const = default;
         bool alike(const Standing& other) const;
     };
-    void find_standing(const SceneNodes& nodes, const Pose& pose);
+    void find_standing(const SceneNodes& nodes, const Pose& pose, std::span<const size_t> present);
     void make_groups();
     void add_group(std::span<const Standing> lamps);
 

@@ -61,7 +61,8 @@ PointBudget budget_of(Grid& grid, size_t point) {
 
 namespace {
 
-constexpr float kLeastWeight = 1.0f / 256;  // of rays that are followed in any case
+// Of rays that are followed in any case; of those behind rays of many, each of which shows little.
+constexpr float kLeastWeight = 1.0f / 256, kLeastScattered = 1.0f / 8;
 constexpr uint32_t kWaySalt = 0x3c6ef372u, kPathSalt = 0x78dde6e4u;
 
 // A number in [0, 1) for the choice at a hit: stratified over the samples of a pixel where these
@@ -94,7 +95,7 @@ TracedRay choose_way(Grid& grid, size_t point, PointRays* own, float weight, flo
     bool first = std::max(rays->turns[ray], grid.depth) < grid.frame.quality.split;
     if (first || !std::isfinite(all)) return {1, reflected};
     // Rays that count for little end at random, those that are left count for more.
-    float kept = std::min(1.0f, all / kLeastWeight);
+    float kept = std::min(1.0f, all / (grid.ray.scattered ? kLeastScattered : kLeastWeight));
     float reflects = kept * (reflected / all), goes_on = kept * (passing / all);
     float number = number_of_choice(grid.hits, hit, grid.frame.seed);
     if (number < reflects) {

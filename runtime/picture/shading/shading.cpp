@@ -1,5 +1,6 @@
 // runtime/picture/shading/shading.cpp: the objects that shade, and the course of a frame.
 #include "runtime/picture/shading/shading.h"
+#include "runtime/picture/shading/lighting/light_aims.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -170,7 +171,8 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
                            diagnostics);
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
-    if (!std::exchange(objects_->aims_reported, true)) objects_->lights.report_aims(diagnostics);
+    if (!std::exchange(objects_->aims_reported, true))
+        report_aims(objects_->frame, objects_->lights.bindings(), diagnostics);
     objects_->frame.insight = {};  // what it fills need not be there any more
     return objects_->counted();
 }

@@ -65,7 +65,7 @@ LightRecords::AreaKernel::AreaKernel(LightRecords& all, const Making& making, si
       arena_(making.grid.memory.arena) {
     Grid& grid = making.grid;
     all.kernels_.prepare(lit, grid.ray);
-    lit.rays = accounts(making);
+    lit.rays = accounts_of(grid, at);
     lit.shadows = grid.shadows;
     if (grid.look->kind == ShaderInstanceKind::Surface) {
         lit.surface = grid.look;

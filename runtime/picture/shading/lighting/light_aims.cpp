@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/picture/shading/lighting/light_records.h"
+#include "runtime/picture/shading/grid.h"
+#include "runtime/picture/shading/lighting/light_aims.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/kernels/columns.h"
 #include "runtime/scene/shaders/scene_host.h"
@@ -79,22 +80,22 @@ std::span<float*> run_probes(const ShadingFrame& frame, const ShaderInstance& lo
 
 }  // namespace
 
-void LightRecords::report_aims(Diagnostics& diagnostics) const {
+void report_aims(const ShadingFrame& frame, const LightBindings& bindings,
+                 Diagnostics& diagnostics) {
     // The interface's lights are aimed by parameters of their own.
-    if (frame_.resources.description->file_picture) return;
+    if (frame.resources.description->file_picture) return;
     Arena arena;
-    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
-        const LightSource& light = frame_.lights.lights[l];
-        const ShaderInstance& look = *frame_.shaders.shader_instances[light.look];
+    for (size_t l = 0; l < frame.lights.lights.size(); ++l) {
+        const LightSource& light = frame.lights.lights[l];
+        const ShaderInstance& look = *frame.shaders.shader_instances[light.look];
         // A shader that does not read its space has another aim, as the default lights have.
         bool aims = std::count(look.spaces.begin(), look.spaces.end(), "shader") > 0;
-        if (look.area_light || !aims || !bindings_.directed(l)) continue;
+        if (look.area_light || !aims || !bindings.directed(l)) continue;
         arena.reset();
-        std::span<float*> out = run_probes(frame_, look, arena);
-        dvec3 forward(
-            current_from_space(frame_.nodes, frame_.pose, "shader", look.space_owner())[2]);
+        std::span<float*> out = run_probes(frame, look, arena);
+        dvec3 forward(current_from_space(frame.nodes, frame.pose, "shader", look.space_owner())[2]);
         bool before = false, behind = false;
-        for (const LightOutputs& statement : bindings_.statements(l)) {
+        for (const LightOutputs& statement : bindings.statements(l)) {
             if (statement.kind == rsl::kLightAmbient || statement.L[0] < 0) continue;
             for (size_t k = 0; k < kProbes; ++k) {
                 auto at = [&](int output) { return output < 0 ? 0.0f : out[size_t(output)][k]; };
@@ -106,7 +107,7 @@ void LightRecords::report_aims(Diagnostics& diagnostics) const {
                 (glm::dot(to_light, forward) > 0 ? behind : before) = true;
             }
         }
-        const LightDefinition& definition = frame_.resources.description->lights[light.definition];
+        const LightDefinition& definition = frame.resources.description->lights[light.definition];
         if (behind && !before)
             diagnostics.report(Code::LIGHT_AIMS_BACK, definition.where,
                                definition.id.empty() ? definition.name : definition.id);

@@ -76,22 +76,6 @@ const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs&
 
 }  // namespace
 
-// While LIGHTS_DARK counts what arrives on the side that the eye sees, that side is not dropped.
-SeenPoints LightRecords::seen_points(const Grid& grid) {
-    constexpr uint8_t kSeen = rsl::kLitFacing | rsl::kLitFacingByN;
-    SeenPoints points;
-    points.count = grid.count();
-    points.sides = grid.look->lowered.lit_sides;
-    const bool counts = grid.pose.watch_dark > 0 && grid.depth == 0;
-    if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
-    for (size_t k = 0; k < 3; ++k) {
-        points.N[k] = grid.columns[kColN + k];
-        points.Ng[k] = grid.columns[kColNg + k];
-        points.I[k] = grid.columns[kColI + k];
-    }
-    return points;
-}
-
 LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
     : frame_(frame),
       kernels_(kernels),
@@ -134,7 +118,9 @@ void LightRecords::begin_frame(bool all) {
         if (all || bindings_.asked(l))
             reaches_[l] = LightBindings::reach(frame_.nodes, frame_.pose, look_of_light(frame_, l));
     find_present();
-    if (!all) choice_.begin_frame(frame_.nodes, frame_.pose, frame_.quality.light_choice);
+    if (!all)
+        choice_.begin_frame(frame_.nodes, frame_.pose, all_lights_.present,
+                            frame_.quality.light_choice);
     if (!choice_.groups().empty()) find_others();
 }
 
@@ -323,7 +309,7 @@ void LightRecords::dark_records(Making& making, const LightOutputs& statement,
     const float* uniforms =
         record_uniforms(frame_.pose, arena, statement, binding, making.light_begin);
     while (making.record_count < end) {
-        make_room(making);
+        making.make_room();
         making.records[making.record_count++] = {columns.data(), uniforms};
     }
 }
@@ -348,12 +334,6 @@ void LightRecords::shadow_sample(const Making& making, const SentLight& sent) co
     if (sent.casts) grid.shadows->cast(grid, making.at, sent);
 }
 
-// Of the lit points.
-std::span<PointRays> LightRecords::accounts(const Making& making) {
-    const std::span<PointRays> all = making.grid.rays;
-    return all.empty() ? all : all.subspan(making.at.first, making.at.count);
-}
-
 LightRecords::LitGrid::LitGrid(const ShadingFrame& frame, const Making& making, size_t light)
     : Grid(frame, making.grid.memory, making.grid.hits,
            making.grid.points.subspan(making.at.first, making.at.count),
@@ -372,7 +352,7 @@ void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswe
     lit.surface = grid.look->kind == ShaderInstanceKind::Surface ? grid.look : nullptr;
     lit.lit = &grid;
     lit.lit_first = at.first;
-    lit.rays = accounts(making);
+    lit.rays = accounts_of(grid, at);
     if (at.own) lit.notes = grid.notes;
     lit.record_sets = grid.record_sets;
     if (!look.lowered.gathers.empty()) {  // its own, not those of the surface's turns
@@ -522,24 +502,20 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
     }
     // Columns are read at the grid's point, so those of a part of it start before it.
     for (const float*& column : columns) column -= at.first;
-    make_room(making);
+    making.make_room();
     making.records[making.record_count++] = {
         columns.data(),
         record_uniforms(frame_.pose, arena, statement, binding, making.light_begin)};
 }
 
 // Lights with sample methods send more than anyone counted.
-void LightRecords::make_room(Making& making) {
+void LightRecords::Making::make_room() {
     constexpr size_t kMoreRecords = 16;
-    if (making.record_count < making.records.size()) return;
-    std::span<jit::Record> more = making.grid.memory.arena.allocate_span<jit::Record>(
-        2 * making.records.size() + kMoreRecords);
-    std::copy(making.records.begin(), making.records.end(), more.begin());
-    making.records = more;
-}
-
-int32_t LightRecords::domain_of(const ShaderInstance& look) {
-    return rsl::intern(look.lowered.light_domain);
+    if (record_count < records.size()) return;
+    std::span<jit::Record> more =
+        grid.memory.arena.allocate_span<jit::Record>(2 * records.size() + kMoreRecords);
+    std::copy(records.begin(), records.end(), more.begin());
+    records = more;
 }
 
 namespace {

@@ -36,8 +36,6 @@ class LightRecords {
     void begin_frame(bool all);
     // Whether some loop of the scene's shaders asks for that one of Scene::lights.
     bool asked(size_t light) const { return bindings_.asked(light); }
-    // Names the lights that shine only against where they look.
-    void report_aims(Diagnostics& diagnostics) const;
 
     // Of a grid of the look: fewer where there are many records, so that all stay in the cache.
     size_t most_points(const ShaderInstance& look) const;
@@ -67,6 +65,7 @@ class LightRecords {
         std::span<SentLight> sent;
         size_t record_count = 0, sent_count = 0;
         size_t light_begin = 0;  // the first record of the light
+        void make_room();
     };
     jit::RecordSet make_records(Grid& grid, const LightPoints& at);
     // Whether nothing of the light arrives at points of a grid, which are within the sphere.
@@ -78,9 +77,6 @@ class LightRecords {
     bool chooses(const ShaderInstance& look) const;
     size_t most_records(const ShaderInstance& look) const;
     void chosen_records(Making& making, const LampGroup& group);
-    // The grid's points as its kernel looks for lights.
-    static SeenPoints seen_points(const Grid& grid);
-    static std::span<PointRays> accounts(const Making& making);
     // All that a light's kernel reads, and its run.
     struct LitGrid : Grid {  // the lit points, for the light's kernel
         LitGrid(const ShadingFrame& frame, const Making& making, size_t light);
@@ -97,13 +93,7 @@ class LightRecords {
     // the kernel's outputs.
     void add_sample(Making& making, size_t light, std::span<float* const> out,
                     SampleColumnList sample) const;
-    // Both side by side; the statement gets to know their numbers.
-    static std::span<float* const> columns_of(const Making& making, LightOutputs& statement,
-                                              std::span<float* const> out,
-                                              std::span<float* const> sample);
-    static void make_room(Making& making);
     void keep_counts(Making& making, size_t light, const float* counts) const;
-    static int32_t domain_of(const ShaderInstance& look);
     // What one light sends from the directions of samplinglights.
     void record_along(Making& making, size_t light, const jit::ServiceCall& call);
     // Of a light on geometry (area_records.cpp).

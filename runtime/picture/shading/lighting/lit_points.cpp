@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "raytrace/hits.h"
+#include "runtime/scene/kernels/columns.h"
 
 namespace kinora {
 
@@ -22,6 +23,26 @@ T* lane_row(Arena& arena) {
 }
 
 }  // namespace
+
+std::span<PointRays> accounts_of(const Grid& grid, const LightPoints& at) {
+    return grid.rays.empty() ? grid.rays : grid.rays.subspan(at.first, at.count);
+}
+
+// While LIGHTS_DARK counts what arrives on the side that the eye sees, that side is not dropped.
+SeenPoints seen_points(const Grid& grid) {
+    constexpr uint8_t kSeen = rsl::kLitFacing | rsl::kLitFacingByN;
+    SeenPoints points;
+    points.count = grid.count();
+    points.sides = grid.look->lowered.lit_sides;
+    const bool counts = grid.pose.watch_dark > 0 && grid.depth == 0;
+    if (counts && (points.sides == 0 || points.sides & ~kSeen)) points.sides = rsl::kLitAround;
+    for (size_t k = 0; k < 3; ++k) {
+        points.N[k] = grid.columns[kColN + k];
+        points.Ng[k] = grid.columns[kColNg + k];
+        points.I[k] = grid.columns[kColI + k];
+    }
+    return points;
+}
 
 LightPoints points_of(const Grid& grid, const jit::ServiceCall& call) {
     Arena& arena = grid.memory.arena;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "raytrace/random/series.h"
+#include "runtime/picture/lights/unseen_light.h"
 #include "runtime/picture/shading/grid.h"
 
 namespace kinora {
@@ -25,6 +26,12 @@ struct LightPoints {
     size_t first = 0;  // grid point of element 0: what record columns are relative to
     bool own = false;  // the grid's points themselves
 };
+
+// Their accounts of rays, where the grid's points have such.
+std::span<PointRays> accounts_of(const Grid& grid, const LightPoints& at);
+
+// The grid's points as its kernel looks for lights.
+SeenPoints seen_points(const Grid& grid);
 
 // The points of a call whose first arguments are P, on no surface.
 LightPoints points_of(const Grid& grid, const jit::ServiceCall& call);

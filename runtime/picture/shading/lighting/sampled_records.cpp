@@ -60,13 +60,10 @@ struct PointSample {
     bool shines;
 };
 
-}  // namespace
-
-std::span<float* const> LightRecords::columns_of(const Making& making, LightOutputs& statement,
-                                                 std::span<float* const> out,
-                                                 std::span<float* const> sample) {
-    std::span<float*> all =
-        making.grid.memory.arena.allocate_span<float*>(out.size() + sample.size());
+// Both side by side; the statement gets to know their numbers.
+std::span<float* const> columns_of(Arena& arena, LightOutputs& statement,
+                                   std::span<float* const> out, std::span<float* const> sample) {
+    std::span<float*> all = arena.allocate_span<float*>(out.size() + sample.size());
     std::copy(sample.begin(), sample.end(), std::copy(out.begin(), out.end(), all.begin()));
     for (int k = 0; k < 3; ++k) {
         statement.L[k] = int(out.size()) + k;
@@ -76,6 +73,12 @@ std::span<float* const> LightRecords::columns_of(const Making& making, LightOutp
     statement.density = int(out.size()) + 9;
     return all;
 }
+
+int32_t domain_of(const ShaderInstance& look) {
+    return rsl::intern(look.lowered.light_domain);
+}
+
+}  // namespace
 
 void LightRecords::sampled_records(Making& making, size_t l) {
     Arena& arena = making.grid.memory.arena;
@@ -123,7 +126,7 @@ void LightRecords::add_sample(Making& making, size_t l, std::span<float* const> 
                               SampleColumnList sample) const {
     LightOutputs statement = bindings_.statements(l)[0];
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
-    std::span<float* const> columns = columns_of(making, statement, out, sample);
+    std::span<float* const> columns = columns_of(making.grid.memory.arena, statement, out, sample);
     make_record(making, statement, binding, binding.messages, columns, true, nullptr);
 }
 
