@@ -127,10 +127,8 @@ surface gltf_pbr(
     float F90 = mix(specular, 1, metal);
     color under = base * (1 - metal);
     color light = 0;
-    /* A cone about as wide as the lobe; the rougher, the more the ambient light will do. */
-    float clear = 0;
-    if (mirrors != 0)
-        clear = 1 - smoothstep(0.25, 0.5, rough);
+    /* How much of what the layer mirrors is found by rays; the rougher, the more light will do. */
+    float clear = mirrors != 0 ? 1 - smoothstep(0.25, 0.5, rough) : 0;
     illuminance(P, Nf, PI / 2) {
         vector Ln = normalize(L);
         vector H = normalize(Ln + V);
@@ -143,12 +141,17 @@ surface gltf_pbr(
             /* Smith's shadowing of both ways over 4 NL NV (Heitz 2014). */
             float G = 0.5 / (NL * sqrt(NV * NV * (1 - alpha2) + alpha2) +
                              NV * sqrt(NL * NL * (1 - alpha2) + alpha2));
-            /* A light without highlights is a broad one, which the layer mirrors as a glow. */
-            float broad = 0;
+            /* A light without highlights is a broad one, which the layer mirrors as a glow. What
+               other surfaces send is seen by the rays already. */
+            float broad = 0, unseen = 1;
+            string category = "";
             lightsource("__nonspecular", broad);
+            lightsource("__category", category);
+            if (category == "indirect")
+                unseen = 1 - clear;
             color layer = F * D * G;
             if (broad > 0)
-                layer = mix(layer, reflected_everywhere(F0, F90, rough, NV), broad);
+                layer = mix(layer, unseen * reflected_everywhere(F0, F90, rough, NV), broad);
             /* What lies around the scene is seen by the rays of smooth surfaces. */
             if (mirrors != 0) {
                 float around_scene = 0;
@@ -165,7 +168,8 @@ surface gltf_pbr(
                    occlusion_strength);
     light += open * around * under;
     color seen = open * around;
-    if (mirrors != 0 && clear > 0) {
+    if (clear > 0) {
+        /* A cone about as wide as the lobe. */
         color hit = 0, mirrored = 0;
         gather("illuminance", P, reflect(-V, Nf), rough * rough, 1, "surface:Ci", hit)
             mirrored += hit;

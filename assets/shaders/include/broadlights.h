@@ -3,11 +3,12 @@
 #define BROADLIGHTS_H
 
 // What a metal at P mirrors along R of the lights with __nonspecular, such as the default fill and rim
-// lights: a glow as wide as they are. Other lights give nothing here; specular() has them.
+// lights: a glow as wide as they are. Other lights give nothing here; specular() has them. Light from
+// other surfaces (--gi) gives nothing either: a ray along R finds it.
 color broad_glow(point P; normal Nf; vector R) {
     color glow = 0;
     vector Rn = normalize(R);
-    illuminance(P, Nf, PI / 2) {
+    illuminance("-indirect", P, Nf, PI / 2) {
         float broad = 0;
         lightsource("__nonspecular", broad);
         vector Ln = normalize(L);

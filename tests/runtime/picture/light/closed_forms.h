@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <span>
 
 #include "runtime/base/math.h"
 
@@ -41,14 +41,13 @@ inline double sphere_share(dvec2 p, double radius, double height) {
     return radius * radius / far2 * height / std::sqrt(far2);
 }
 
-// Of a triangle that is seen from its front, wholly above the plane: the sum over its edges of the
-// angle times the height of the edge's normal (J. Lambert 1760).
-inline double triangle_share(dvec3 p, const dvec3 (&corners)[3]) {
-    const dvec3 front = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    if (!(glm::dot(front, p - corners[0]) > 0)) return 0;
+// Of a flat polygon that is seen from its front, wholly above the plane: the sum over its edges of
+// the angle times the height of the edge's normal (J. Lambert 1760).
+inline double polygon_share(dvec3 p, std::span<const dvec3> corners) {
     double sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        const dvec3 a = corners[k] - p, b = corners[(k + 1) % 3] - p, across = glm::cross(a, b);
+    for (size_t k = 0; k < corners.size(); ++k) {
+        const dvec3 a = corners[k] - p, b = corners[(k + 1) % corners.size()] - p;
+        const dvec3 across = glm::cross(a, b);
         const double sine = glm::length(across);
         if (sine > 0) sum -= std::atan2(sine, glm::dot(a, b)) * across.z / sine;
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/folders.h"
 #include "tests/runtime/expect_colors.h"
 
 namespace kinora {
@@ -50,6 +51,46 @@ TEST(Furnace, HasItsSeriesByTheSurface) {
 
 TEST(Furnace, HasItsSeriesByTheScene) {
     expect_series("diffuse(n)", true);
+}
+
+double middle_of(const SceneText& scene, uint32_t bounces) {
+    SceneOptions options;
+    options.lights = LightSet::Scene;
+    options.indirect = options.quality.diffuse_depth = bounces;
+    Rendering r(scene.text(), options);
+    EXPECT_EQ(r.findings(), "");
+    r.frame();
+    return double(r.color(8, 8).x);
+}
+
+SceneText within_box(SceneText scene) {
+    scene.cube("box", 20).look("wall", "surface wall() { Oi = 1; Ci = 1; }");
+    return scene.place("box", "wall");
+}
+
+// They see the box by rays, so its light is not a glow besides.
+TEST(Furnace, IsSeenOnceInMirrors) {
+    const SceneText mirror = within_box(floor_scene(
+        "#include \"broadlights.h\"\n"
+        "surface mirror() { normal n = faceforward(normalize(N), I); vector R = reflect(I, n);"
+        " Oi = 1; Ci = trace(P, R) + broad_glow(P, n, R); }"));
+    for (uint32_t bounces : {0u, 2u}) EXPECT_NEAR(middle_of(mirror, bounces), 1, 1e-5);
+}
+
+// A metal of any roughness shows by rays, by the light of other surfaces or by both what it shows
+// of ambient light that is as bright.
+TEST(Furnace, IsSeenOnceInMetals) {
+    for (double rough : {0.0, 0.3, 0.4, 1.0}) {
+        const SceneText metal = floor_scene(
+            fmt::format("#include \"{}/assets/shaders/gltf_pbr.sl\"\n", project_folder()),
+            fmt::format("<shader stage=\"SURFACE\"><bind symbol=\"mirrors\"><float>1</float></bind>"
+                        "<bind symbol=\"base_color\"><color>1 1 1</color></bind>"
+                        "<bind symbol=\"roughness\"><float>{}</float></bind></shader>",
+                        rough));
+        SceneText ambient = metal;
+        ambient.light("sky", "<ambient><color>1 1 1</color></ambient>");
+        EXPECT_NEAR(middle_of(within_box(metal), 2), middle_of(ambient, 0), 1e-4) << rough;
+    }
 }
 
 }  // namespace

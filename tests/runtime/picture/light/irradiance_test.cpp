@@ -72,8 +72,9 @@ TEST(LampIrradiance, OfASphereOnGeometryIsTheSumOverItsFacets) {
     const Share facets = [&](dvec2 p) {
         double sum = 0;
         for (size_t t = 0; t < mesh.positions.size(); t += 3) {
-            const dvec3* corners = &mesh.positions[t];
-            sum += triangle_share(dvec3(p, -kLampHeight), {corners[0], corners[1], corners[2]});
+            const dvec3 at(p, -kLampHeight);
+            if (glm::dot(at - mesh.positions[t], mesh.normals[t]) > 0)
+                sum += polygon_share(at, std::span(mesh.positions).subspan(t, 3));
         }
         return sum;
     };

@@ -10,20 +10,32 @@ namespace {
 
 constexpr int kOfPoint = 256;
 
-// The shade hides what is left of x = 0 at half the height: of the lamp's plane, x < -p.x.
-bool is_seen(dvec2 p, dvec3 at) {
-    return p.x + (at.x - p.x) * (kLampHeight / 2) / at.z > 0;
+// The shade's edge goes through the axis at half the height, turned by 30 degrees from the lamp's
+// sides: it hides what lies left of the edge, which of the lamp's plane is right(at) < -right(p).
+constexpr double kTurn = 30;
+dvec2 turned(dvec2 p) {
+    const double c = std::cos(kTurn * kPi / 180), s = std::sin(kTurn * kPi / 180);
+    return {c * p.x + s * p.y, c * p.y - s * p.x};
 }
 
+// The lamp's polygon, without what is hidden (I. Sutherland and G. Hodgman 1974).
 double rectangle_seen(dvec2 p) {
-    const dvec2 high(kLampWide / 2, kLampTall / 2);
-    const double left = std::clamp(-p.x, -high.x, high.x);
-    return rectangle_share(p, {left, -high.y}, high, kLampHeight);
+    const std::vector<dvec3> whole = rectangle_mesh().positions;
+    auto right = [&](dvec3 at) { return turned(dvec2(at)).x + turned(p).x; };
+    std::vector<dvec3> seen;
+    for (size_t k = 0; k < whole.size(); ++k) {
+        const dvec3 a = whole[k], b = whole[(k + 1) % whole.size()];
+        if (right(a) > 0) seen.push_back(a);
+        if ((right(a) > 0) != (right(b) > 0))
+            seen.push_back(a + (b - a) * (right(a) / (right(a) - right(b))));
+    }
+    return polygon_share(dvec3(p, -kLampHeight), seen);
 }
 
-// Over strips along y, whose light is found by midpoints.
-double disc_seen(dvec2 p) {
+// Over strips along the edge, whose light is found by midpoints.
+double disc_seen(dvec2 place) {
     constexpr int kSteps = 128;
+    const dvec2 p = turned(place);
     const double left = std::clamp(-p.x, -kDiscRadius, kDiscRadius);
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
@@ -51,7 +63,7 @@ double sphere_seen(dvec2 p) {
             const double c = 1 - opening * (i + 0.5) / kSteps, s = std::sqrt(1 - c * c);
             const double a = 2 * kPi * (j + 0.5) / kSteps;
             const dvec3 D = c * W + s * (std::cos(a) * T + std::sin(a) * B);
-            if (is_seen(p, dvec3(p, 0) + D)) sum += D.z;
+            if (turned(p + dvec2(D) / D.z * (kLampHeight / 2)).x > 0) sum += D.z;
         }
     return sum * 2 * opening / (kSteps * kSteps);
 }
@@ -66,7 +78,9 @@ struct Shape {
 SceneText shaded_floor() {
     SceneText scene = floor_scene(kMatte);
     scene.square("shade", 5).look("dark", "surface dark() { Ci = 0; Oi = 1; }");
-    scene.place("shade", "dark", fmt::format("<translate>-5 0 {}</translate>", kLampHeight / 2));
+    scene.place("shade", "dark",
+                fmt::format("<rotate>0 0 1 {}</rotate><translate>-5 0 {}</translate>", kTurn,
+                            kLampHeight / 2));
     look_from_below(scene, 0.5);
     return scene;
 }
