@@ -38,11 +38,19 @@ bool Arrays::check_size(const Symbol& symbol, Type type) {
     return bytes_ <= kMostArrayBytes;
 }
 
+// A loop over all elements ends by itself, never by the budget: one that stopped halfway would
+// leave elements that count as stored and hold anything.
+void Arrays::let_loops_reach(int length) {
+    int32_t& budget = b_.module().loop_budget;
+    budget = std::max(budget, int32_t(length));
+}
+
 int Arrays::add_in_memory(const Symbol& symbol, Type type, int cleared) {
     bool fits = check_size(symbol, type);
     Array array;
     array.element = type.base;
     array.length = fits ? std::max(type.array_length, 1) : 1;
+    let_loops_reach(array.length);
     for (int c = 0; c < component_count(type.base); ++c)
         array.memory.push_back(
             b_.declare_array(std::string(symbol.name), ir_type(type.base), array.length, cleared));
@@ -168,6 +176,7 @@ void Arrays::copy(int to, int from, Location where) {
 }
 
 int Arrays::add_inputs(Type type, std::vector<int> first_inputs) {
+    let_loops_reach(type.array_length);
     arrays_.push_back({type.base, type.array_length, -1, -1, {}, std::move(first_inputs)});
     return int(arrays_.size()) - 1;
 }

@@ -66,6 +66,7 @@ class Arrays {
         std::vector<int> inputs;  // first input of each component: a parameter never written
     };
     bool check_size(const Symbol& symbol, Type type);
+    void let_loops_reach(int length);
     // The first `cleared` elements are 0 at first.
     int add_in_memory(const Symbol& symbol, Type type, int cleared);
     template <class Body>

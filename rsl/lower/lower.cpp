@@ -439,6 +439,7 @@ std::optional<LoweredShader> lower(std::span<const Layer> layers, const LowerOpt
     LoweredShader result;
     for (const Layer& layer : layers)
         result.module.name += (result.module.name.empty() ? "" : "+") + layer.shader->name;
+    result.module.loop_budget = options.loop_budget;
     jit::add_function(result.module, "kernel", {});
     jit::Builder builder(result.module, 0);
     if (!KernelWriter(builder, layers, options, diagnostics, result).write()) return std::nullopt;

@@ -32,6 +32,9 @@ struct LowerOptions {
     float opacity_threshold = 0;
     // Points are numbers of no mesh: a class's displacement() moves P, and nothing moves it back.
     bool moves_points = false;
+    // Iterations per entry of a loop: Module::loop_budget, which no array of the module is longer
+    // than.
+    int32_t loop_budget = 1'000'000;
     std::vector<std::string> aovs;      // names of output parameters wanted
     std::vector<std::string> messages;  // light shaders: parameters that some lightsource() reads
     // Known coordinate systems besides the standard ones: what else is named means "shader". Null:

@@ -103,10 +103,10 @@ std::string edge_difference(const File& file, uint64_t seed, size_t points, bool
     std::vector<ParamBinding> params;
     Columns columns = edge_points(seed, points);
     if (bound) bind_edges(shader, random, points, params, columns);
-    RunShader run(file.text, all_outputs(shader), params);
+    LowerOptions options = all_outputs(shader);
+    options.loop_budget = kLoopBudget;
+    RunShader run(file.text, options, params);
     if (!run.ok()) return run.findings() + run.verdict + " does not compile when bound";
-    run.lowered.module.loop_budget = kLoopBudget;
-    run.kernels = jit::compile(run.lowered.module, {jit::find_target("interp"), nullptr});
     run.inputs = columns;
     add_edge_world(run, seed, points);
     ++counts.shaders;

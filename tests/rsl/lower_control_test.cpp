@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
+#include "jit/target.h"
 #include "tests/rsl/run_shader.h"
 
 namespace kinora::rsl {
@@ -181,6 +183,62 @@ TEST(LowerControl, EndlessLoopsAreFaults) {
     ASSERT_TRUE(shader.ok()) << shader.findings();
     shader.run(1);
     EXPECT_GT(shader.faults, 0);
+}
+
+// Two hundred points with arrays of 2 to 201 elements, in memory that held 7 before.
+constexpr const char* kRefilled =
+    "surface t() { float a[], b[], c[]; float i, j; for (i = 0; i < 20; i += 1) for (j = 0; j < "
+    "10; j += 1) push(a, 7); b = a; resize(a, 0); resize(a, s); push(a, s); c = a; "
+    "Ci = color(a[s - 1] + a[s / 2], c[s], arraylength(c) + 1000 * (b[199] == 7) + 2000 * (a == c)"
+    " + 4000 * (a == b)); }";
+
+TEST(LowerControl, ArraysAreStoredWholeWhateverLoopsMayTurn) {
+    LowerOptions options;
+    options.loop_budget = 21;
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        RunShader shader(kRefilled, options, {}, false, target.name);
+        ASSERT_TRUE(shader.ok()) << shader.findings();
+        std::vector<float> s(200);
+        std::iota(s.begin(), s.end(), 1.0f);
+        shader.set("s", s);
+        auto out = shader.run(200);
+        EXPECT_EQ(shader.faults, 0) << target.name;
+        for (size_t k = 0; k < s.size(); ++k) {
+            EXPECT_EQ(out["Ci.r"][k], 0) << target.name << " at s = " << s[k];
+            EXPECT_EQ(out["Ci.g"][k], s[k]) << target.name;
+            EXPECT_EQ(out["Ci.b"][k], s[k] + 1 + 1000 + 2000) << target.name << " at s = " << s[k];
+        }
+    }
+}
+
+TEST(LowerControl, TheBudgetOfLoopsIsAtLeastTheLongestArray) {
+    LowerOptions options;
+    options.loop_budget = 21;
+    RunShader none("surface t() { float x = 0; while (1 > 0) x += 1; Ci = x; }", options);
+    EXPECT_EQ(none.lowered.module.loop_budget, 21);
+    none.run(1);
+    EXPECT_GT(none.faults, 0);
+    RunShader fixed("surface t() { float a[90]; a[s] = 1; Ci = a[t]; }", options);
+    EXPECT_EQ(fixed.lowered.module.loop_budget, 90);
+    RunShader reserved("surface t() { float a[]; reserve(a, 300); push(a, s); Ci = a[0]; }",
+                       options);
+    EXPECT_EQ(reserved.lowered.module.loop_budget, 300);
+}
+
+TEST(LowerControl, ALoopMayTakeItsWholeBudgetWithoutAFault) {
+    LowerOptions options;
+    options.loop_budget = 21;
+    for (const jit::Target& target : jit::targets()) {
+        if (!target.supported()) continue;
+        RunShader shader("surface t() { float a[]; resize(a, 300); a[s] = 4; Ci = a[299]; }",
+                         options, {}, false, target.name);
+        ASSERT_TRUE(shader.ok()) << shader.findings();
+        EXPECT_EQ(shader.lowered.module.loop_budget, 300);
+        shader.set("s", {299, 298});
+        EXPECT_EQ(shader.run(2)["Ci.r"], (std::vector<float>{4, 0})) << target.name;
+        EXPECT_EQ(shader.faults, 0) << target.name;
+    }
 }
 
 TEST(LowerControl, RandomDiffersByCallLanePointAndTurn) {

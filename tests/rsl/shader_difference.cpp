@@ -236,7 +236,7 @@ std::string against_reference(RunShader& run, const Setting& setting,
         ReferenceInputs inputs = at_point(setting.columns, {"rng"}, i);
         inputs.lights = lights;
         inputs.service = reference_service;
-        inputs.loop_budget = kLoopBudget;
+        inputs.loop_budget = run.lowered.module.loop_budget;
         inputs.statement_budget = kStatementBudget;
         std::string wrong = compare_point(layers, inputs, i, got, counts);
         if (!wrong.empty()) return wrong;
@@ -328,6 +328,7 @@ std::string shader_difference(const std::string& source, uint64_t world, Differe
                           ? "no finding"
                           : format_finding(diagnostics.findings()[0], diagnostics.files));
     Setting setting = setting_of(shaders, world);
+    setting.options.loop_budget = kLoopBudget;
     RunShader run = run_of(source, is_stack(shaders), setting.options, setting.params);
     if (!run.verdict.empty()) return "verify: " + run.verdict;
     if (!run.ok()) return reject(run.findings());
@@ -335,8 +336,6 @@ std::string shader_difference(const std::string& source, uint64_t world, Differe
     add_lights(run, shared);
     add_services(run);
     run.inputs = setting.columns;
-    run.lowered.module.loop_budget = kLoopBudget;
-    run.kernels = jit::compile(run.lowered.module, {jit::find_target("interp"), nullptr});
     std::string wrong = against_reference(run, setting, shared.lights, counts);
     if (wrong.empty()) wrong = target_difference(run, setting.points, counts);
     if (wrong.empty()) wrong = emission_difference(run.lowered.module);
