@@ -10,7 +10,7 @@ from programs import SOURCE, ProgramTest, main, shade
 
 ROW = re.compile(r"^== (.+?) => (\w+)\n((?:(?!== ).*\n)+)", re.M)
 
-WARNINGS = ("RSL_NOT_COMPUTED", "RSL_LIGHT_METHOD")
+WARNINGS = ("RSL_NOT_COMPUTED", "RSL_LIGHT_METHOD", "RSL_PAIR_UNKNOWN", "RSL_PAIR_IDLE")
 
 
 def rows():
