@@ -179,7 +179,6 @@ const HeaderRow kHeaders[] = {
      "N);"},
     {"getlights.h", "", "Ci = 1;"},     // its functions take lights: objects/lights_test.cpp
     {"integrators.h", "", "Ci = 1;"},   // its functions are of classes: tests/rsl/classes
-    {"samplelimit.h", "", "Ci = 1;"},
     {"lightsamples.h", "", "Ci = 1;"},  // of lights: tests/runtime/sampled_lights_test.cpp
     {"util.h", "",
      "float rx, ry, r, theta; rotate2d(s, t, 0.5, 0.5, 0.5, rx, ry); topolar(s, t, r, theta);"

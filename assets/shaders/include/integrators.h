@@ -9,7 +9,6 @@
 #ifndef KINORA_INTEGRATORS_H
 #define KINORA_INTEGRATORS_H
 
-#include <samplelimit.h>
 #include <stdrsl/radiancesample.h>
 
 float integrate_listed(shader list[]; shader one;) {
@@ -28,17 +27,12 @@ float integrate_weight(float own; float other; float power;) {
 
 // The material's samples of a lobe, unless some are there.
 void integrate_choose(string what; float wanted; output __radiancesample samples[];) {
-    if (wanted != 0 && arraylength(samples) == 0) {
-        generateSamples(what, samples);
-        limit_samples(samples);
-    }
+    if (wanted != 0 && arraylength(samples) == 0) generateSamples(what, samples);
 }
 void integrate_choose_of(shader which; string what; float wanted;
                          output __radiancesample samples[];) {
-    if (wanted != 0 && arraylength(samples) == 0 && hasmethod(which, "generateSamples") == 1) {
+    if (wanted != 0 && arraylength(samples) == 0 && hasmethod(which, "generateSamples") == 1)
         which->generateSamples(what, samples);
-        limit_samples(samples);
-    }
 }
 
 // Results of light groups, none yet. An array of fixed length has as many as fit.
@@ -205,10 +199,8 @@ KINORA_DIRECT_FORMS(integrate_direct_of_among, shader which; shader among[];,
 #define KINORA_INDIRECT(NAME, FORMALS, OF)                                                     \
     color NAME(FORMALS color hints; float maxdist; uniform float counted;                      \
                output __radiancesample materialsamples[];) {                                   \
-        if (arraylength(materialsamples) == 0) {                                               \
+        if (arraylength(materialsamples) == 0)                                                 \
             OF generateSamples("indirectspecular", materialsamples);                           \
-            limit_samples(materialsamples);                                                    \
-        }                                                                                      \
         color sum = 0;                                                                         \
         float i, count = arraylength(materialsamples);                                         \
         for (i = 0; i < count; i += 1) {                                                       \

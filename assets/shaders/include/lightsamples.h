@@ -7,7 +7,6 @@
 #ifndef KINORA_LIGHTSAMPLES_H
 #define KINORA_LIGHTSAMPLES_H
 
-#include <samplelimit.h>
 #include <stdrsl/radiancesample.h>
 
 #define KINORA_LIGHT_SAMPLES(NAME, SHADOW)                                                     \
@@ -16,7 +15,6 @@
         string domain = samplewishdomain();                                                    \
         if (samplewish() == 0) {                                                               \
             generateSamples(domain, samples);                                                  \
-            limit_samples(samples);                                                            \
         } else {                                                                               \
             resize(samples, 1);                                                                \
             samples[0]->direction = samplewishdirection();                                     \
