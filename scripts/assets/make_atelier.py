@@ -62,7 +62,9 @@ class atelier(color tint = 0.5; float rough = 0.3; float metal = 0; uniform floa
         }
     }
     public void generateSamples(string what; output __radiancesample s[]) {
-        uniform float i, start = arraylength(s), end = start + samples;
+        uniform float i, most = samples;
+        rayinfo("samplelimit", most);  /* behind rays of many one is enough */
+        uniform float start = arraylength(s), end = start + min(samples, most);
         color response = 0;
         float pdf = 0;
         if (what == "specular" || what == "indirectspecular") {
