@@ -53,7 +53,8 @@ float give(const PointBudget& budget, int rays, uint32_t path = 0) {
     if (account.calls < 0xffff) ++account.calls;
     const float rest = std::max(left_of(budget) - float(rays), left_of(budget) / 4);
     float given = rest * part_of_rest(account, rays);
-    if (rays == 1) given = std::max(given, kRounding * float(path));
+    const bool alone = rays == 1 && account.calls == 1;  // later calls have what is left
+    if (alone) given = std::max(given, kRounding * float(path));
     account.kept = std::max(rest - given, kLeastKept) / budget.allowance;
     return given / float(rays);
 }
