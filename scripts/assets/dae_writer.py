@@ -36,6 +36,15 @@ def lathe_of(profile, around, along):
     return grid_of(point, around, along)
 
 
+def smooth(points, t):
+    """A Catmull-Rom curve through the points, t from 0 to 1."""
+    at = t * (len(points) - 1)
+    k = min(int(at), len(points) - 2)
+    f = at - k
+    a, b, c, d = (points[min(max(k + i, 0), len(points) - 1)] for i in (-1, 0, 1, 2))
+    return 0.5 * (2 * b + (c - a) * f + (2 * a - 5 * b + 4 * c - d) * f * f + (3 * b - a - 3 * c + d) * f ** 3)
+
+
 def smooth_normals(mesh):
     """Area-weighted; vertices at one place (the seam of a lathe, its poles) share theirs."""
     positions, _, quads = mesh

@@ -6,7 +6,7 @@ import math
 import sys
 from pathlib import Path
 
-from dae_writer import Dae, add_box, grid_of, lathe_of
+from dae_writer import Dae, add_box, grid_of, lathe_of, smooth
 
 FRAMES, RATE = 96, 24
 SKY = (128, 64)  # pixels of latitudes and longitudes
@@ -218,15 +218,6 @@ def sky(path):
             scale = mantissa * 256 / most
             rows += bytes([int(c * scale) for c in color] + [exponent + 128])
     path.write_bytes(f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n".encode() + rows)
-
-
-def smooth(points, t):
-    """A Catmull-Rom curve through the points, t from 0 to 1."""
-    at = t * (len(points) - 1)
-    k = min(int(at), len(points) - 2)
-    f = at - k
-    a, b, c, d = (points[min(max(k + i, 0), len(points) - 1)] for i in (-1, 0, 1, 2))
-    return 0.5 * (2 * b + (c - a) * f + (2 * a - 5 * b + 4 * c - d) * f * f + (3 * b - a - 3 * c + d) * f ** 3)
 
 
 def vessel(name, radius, height):

@@ -5,7 +5,7 @@
 import math
 import sys
 
-from dae_writer import Dae, grid_of, lathe_of
+from dae_writer import Dae, grid_of, lathe_of, smooth
 
 POT = """/* A pot: the body and each layer above it change tint, shine and rise in turn. */
 class pot(shader body = null; shader layers[] = {}; float relief = 0.05;) {
@@ -126,15 +126,6 @@ LIGHT = """light lamp(float intensity = 1; color lightcolor = 1;) {
     solar(vector "shader" (0, 0, 1), 0) Cl = intensity * lightcolor;
 }
 """
-
-
-def smooth(points, t):
-    """A Catmull-Rom curve through the points, t from 0 to 1."""
-    at = t * (len(points) - 1)
-    k = min(int(at), len(points) - 2)
-    f = at - k
-    a, b, c, d = (points[min(max(k + i, 0), len(points) - 1)] for i in (-1, 0, 1, 2))
-    return 0.5 * (2 * b + (c - a) * f + (2 * a - 5 * b + 4 * c - d) * f * f + (3 * b - a - 3 * c + d) * f ** 3)
 
 
 def outline(name, radius, height):
