@@ -63,7 +63,7 @@ bool read_hidden(const Part& part) {
 struct PartRow {
     std::string_view name;
     bool (*read)(const Part& part);
-    bool is_light;  // says what is seen there
+    bool is_light;  // what rays that leave the scene see
 };
 constexpr PartRow kParts[] = {{"instance_image", read_picture, true},
                               {"color", read_color, true},
@@ -71,7 +71,7 @@ constexpr PartRow kParts[] = {{"instance_image", read_picture, true},
                               {"brightness", read_brightness, false},
                               {"hidden", read_hidden, false}};
 
-// Nothing where it does not say what is seen.
+// Nothing where neither a picture nor a color stands: no light would come from there.
 std::optional<Environment> read_parts(Extraction& x, Link link) {
     Environment environment;
     environment.where = x.where(link);
