@@ -1,9 +1,10 @@
 /* envlight.sl: light from all around, as a picture of the surroundings shows it. Directions are as
    dense as the picture is bright. Its middle lies where the light looks, its top along the light's
    y; only the light's turn counts. A picture is latitudes and longitudes, or six faces.
-   Parameters: map ("": white), tint, intensity, samples (of each lit point). */
+   Parameters: map ("": white), tint, intensity, samples (of each lit point; 0: as many as the
+   renderer takes of a lamp). */
 class envlight(uniform string map = ""; uniform color tint = 1; uniform float intensity = 1;
-               uniform float samples = 16; output float __environment = 1;) {
+               uniform float samples = 0; output float __environment = 1;) {
     uniform vector ahead = normalize(vector "shader" (0, 0, 1));
     uniform vector side = vector "shader" (1, 0, 0);
     uniform vector right = normalize(side - (side . ahead) * ahead);
@@ -15,10 +16,11 @@ class envlight(uniform string map = ""; uniform color tint = 1; uniform float in
     color light_along(vector in_map) { return intensity * tint * maplight(map, in_map); }
 
     public void generateSamples(string what; output __radiancesample s[]) {
-        uniform float i;
+        uniform float i, n = samples;
         float density = 0;
-        resize(s, samples);
-        for (i = 0; i < samples; i += 1) {
+        if (n == 0) rayinfo("lampsamples", n);
+        resize(s, n);
+        for (i = 0; i < n; i += 1) {
             float x = random(), y = random();
             vector D = mapdirection(map, x, y, density);
             s[i]->setLightSample(light_along(D), density, of_map(D), 1e30);

@@ -3,10 +3,11 @@
    sun's is what the air leaves of it there. Half of the samples go to the sun. The light's y is up.
    Parameters: intensity, elevation and azimuth of the sun in degrees (from where the light looks, to
    the left), turbidity (2: very clear, 10: hazy), groundcolor (what the ground sends up), sun (what
-   its light is multiplied by), samples (of each lit point). */
+   its light is multiplied by), samples (of each lit point; 0: as many as the renderer
+   takes of a lamp). */
 class sunsky(uniform float intensity = 1; uniform float elevation = 35; uniform float azimuth = 60;
              uniform float turbidity = 3; uniform color groundcolor = color(0.16, 0.15, 0.13);
-             uniform float sun = 1; uniform float samples = 16; output float __environment = 1;) {
+             uniform float sun = 1; uniform float samples = 0; output float __environment = 1;) {
     constant float kHalfAngle = 0.00465;
     constant float kUnit = 0.06;       // of a thousand candela per square metre
     constant float kOutside = 1.88e6;  // what the sun has of these before the air
@@ -101,9 +102,10 @@ class sunsky(uniform float intensity = 1; uniform float elevation = 35; uniform 
     }
 
     public void generateSamples(string what; output __radiancesample s[]) {
-        uniform float i;
-        resize(s, samples);
-        for (i = 0; i < samples; i += 1) {
+        uniform float i, n = samples;
+        if (n == 0) rayinfo("lampsamples", n);
+        resize(s, n);
+        for (i = 0; i < n; i += 1) {
             float x = random(), y = random();
             vector D = chosen(x, y);
             s[i]->setLightSample(light_along(D), density_along(D), D, 1e30);

@@ -132,8 +132,6 @@ LightDefinition light_of(Scene& scene, const EnvironmentDefinition& environment)
         add(numbers(description, "tint", {color.x, color.y, color.z}));
     }
     add(numbers(description, "intensity", {environment.brightness}));
-    if (const uint32_t samples = scene.options.quality.light_samples)
-        add(numbers(description, "samples", {double(samples)}));
     return light;
 }
 

@@ -51,6 +51,7 @@ struct PicturePoints {
     const ShaderInstance* surface = nullptr;
     const PicturePoints* lit = nullptr;  // a light's: those of the surface
     size_t lit_first = 0;                // whose point that of point 0 is
+    uint32_t lamp_samples = 0;           // a light's: how many a lamp sends there; 0: no light
 
     size_t count() const { return points.size(); }
     // A light's are those of the surface that it lights.

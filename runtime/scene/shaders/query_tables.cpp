@@ -250,6 +250,11 @@ Fact sample_limit(const Asker& asker) {
     return most ? double(most) : kNoLimit;
 }
 
+// Of a light whose shader leaves them to the renderer.
+Fact lamp_samples(const Asker& asker) {
+    return double(std::max(asker.seen->lamp_samples, 1u));
+}
+
 constexpr Row kRay[] = {
     {"depth", depth},
     {"type", kind},
@@ -263,6 +268,7 @@ constexpr Row kRay[] = {
     {"diffusedepth", ray_diffuse_depth},
     {"shadowdepth", shadow_depth},
     {"samplelimit", sample_limit},
+    {"lampsamples", lamp_samples},
 };
 
 // -------------------------------------------------------------------------------------------------
@@ -283,8 +289,9 @@ std::span<const Row> rows_of(rsl::QueryKind kind_asked) {
 }
 
 // Of rays, by name: what their tag and depth say.
-constexpr std::string_view kOfTag[] = {"depth",        "type",        "label",      "speculardepth",
-                                       "diffusedepth", "shadowdepth", "samplelimit"};
+constexpr std::string_view kOfTag[] = {"depth",         "type",         "label",
+                                       "speculardepth", "diffusedepth", "shadowdepth",
+                                       "samplelimit",   "lampsamples"};
 
 std::string_view plain_name(const Query& query) {
     std::string_view name = query.name;

@@ -67,6 +67,7 @@ LightRecords::AreaKernel::AreaKernel(LightRecords& all, const Making& making, si
     all.kernels_.prepare(lit, grid.ray);
     lit.rays = accounts_of(grid, at);
     lit.shadows = grid.shadows;
+    lit.lamp_samples = count;
     if (grid.look->kind == ShaderInstanceKind::Surface) {
         lit.surface = grid.look;
         lit.lit = &grid;

@@ -104,10 +104,14 @@ size_t LightRecords::asked_samples(size_t light, const LightOutputs& statement,
     return wide ? light_samples(frame_, light, beside_indirect) : 1;
 }
 
+bool LightRecords::beside_indirect(const Grid& grid) const {
+    return sends_indirect_ || calls_service(grid.look->full, RayKind::Indirect);
+}
+
 size_t LightRecords::samples_of(size_t light, const LightOutputs& statement,
                                 const Grid& grid) const {
-    const bool indirect = sends_indirect_ || calls_service(grid.look->full, RayKind::Indirect);
-    return size_t(samples_at(grid.ray, int(asked_samples(light, statement, indirect))));
+    return size_t(
+        samples_at(grid.ray, int(asked_samples(light, statement, beside_indirect(grid)))));
 }
 
 void LightRecords::begin_frame(bool all) {
@@ -256,7 +260,7 @@ void LightRecords::note_rays(Grid& grid, RayNotes& notes) {
     kernels_.run_noting(grid, [&] {
         for (size_t l : sending_) {
             if (is_dark(grid, l, lit)) continue;
-            LitGrid of_light(frame_, making, l);
+            LitGrid of_light(making, l);
             prepare(making, l, of_light, nullptr);
             kernels_.run_in_the_dark(of_light);
         }
@@ -334,10 +338,10 @@ void LightRecords::shadow_sample(const Making& making, const SentLight& sent) co
     if (sent.casts) grid.shadows->cast(grid, making.at, sent);
 }
 
-LightRecords::LitGrid::LitGrid(const ShadingFrame& frame, const Making& making, size_t light)
-    : Grid(frame, making.grid.memory, making.grid.hits,
+LightRecords::LitGrid::LitGrid(const Making& making, size_t light)
+    : Grid(making.grid.frame, making.grid.memory, making.grid.hits,
            making.grid.points.subspan(making.at.first, making.at.count),
-           &look_of_light(frame, light)) {}
+           &look_of_light(making.grid.frame, light)) {}
 
 void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswer* answer) const {
     Grid& grid = making.grid;
@@ -346,6 +350,8 @@ void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswe
     Arena& arena = grid.memory.arena;
     lit.depth = grid.depth;
     lit.ray = grid.ray;
+    lit.lamp_samples =
+        uint32_t(samples_at(grid.ray, int(light_samples(frame_, l, beside_indirect(grid)))));
     lit.shadows = grid.shadows;
     lit.answer = answer;
     if (answer) lit.series = at.series;
@@ -377,7 +383,7 @@ void LightRecords::make_records(Making& making, size_t l) {
 }
 
 void LightRecords::plain_records(Making& making, size_t l) {
-    LitGrid lit(frame_, making, l);
+    LitGrid lit(making, l);
     std::span<float*> out = run_kernel(making, l, lit, nullptr);
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))

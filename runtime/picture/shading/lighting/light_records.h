@@ -12,6 +12,8 @@
 
 namespace kinora {
 
+class CountedSamples;
+
 // What takes light away on its way.
 class LightShadows {
   public:
@@ -79,16 +81,16 @@ class LightRecords {
     void chosen_records(Making& making, const LampGroup& group);
     // All that a light's kernel reads, and its run.
     struct LitGrid : Grid {  // the lit points, for the light's kernel
-        LitGrid(const ShadingFrame& frame, const Making& making, size_t light);
+        LitGrid(const Making& making, size_t light);
     };
     void prepare(const Making& making, size_t light, Grid& lit, LightAnswer* answer) const;
     std::span<float*> run_kernel(const Making& making, size_t light, Grid& lit,
                                  LightAnswer* answer);
     void plain_records(Making& making, size_t light);
     void sampled_records(Making& making, size_t light);
-    // One sample of a light, of `counts` at each point.
-    void sample_record(Making& making, size_t light, const LightSampleRows& rows,
-                       std::span<float* const> out, const float* counts) const;
+    // The k-th sample of a light at each point.
+    void sample_record(Making& making, size_t light, const CountedSamples& samples, size_t k,
+                       std::span<float* const> out) const;
     // A record of these columns: L, where its shadow ray ends, Cl and density. Messages are among
     // the kernel's outputs.
     void add_sample(Making& making, size_t light, std::span<float* const> out,
@@ -111,6 +113,7 @@ class LightRecords {
                       std::span<float* const> out) const;
     // Records of a statement of the light: where the grid has no part in it, and for its points.
     size_t asked_samples(size_t light, const LightOutputs& statement, bool beside_indirect) const;
+    bool beside_indirect(const Grid& grid) const;
     size_t samples_of(size_t light, const LightOutputs& statement, const Grid& grid) const;
     // Of a light that reaches none of the points.
     void dark_records(Making& making, size_t light) const;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/picture/shading/lighting/counted_samples.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 
 namespace kinora {
@@ -46,6 +47,7 @@ struct SampleColumns {
 
 // What a sample holds at a point; dark where its numbers mean nothing.
 struct PointSample {
+    PointSample() = default;
     PointSample(const LightSampleRows& rows, size_t i, float far)
         : Cl(rows.Cl[0][i], rows.Cl[1][i], rows.Cl[2][i]), pdf(rows.pdf[i]) {
         const vec3 D(rows.D[0][i], rows.D[1][i], rows.D[2][i]);
@@ -55,9 +57,9 @@ struct PointSample {
         if (!shines) return;
         L = D * ((distance < kEndless ? distance : far) / std::sqrt(length2));
     }
-    vec3 L{0.0f, 0.0f, 1.0f}, Cl;
-    float pdf;
-    bool shines;
+    vec3 L{0.0f, 0.0f, 1.0f}, Cl{0.0f};
+    float pdf = 0;
+    bool shines = false;
 };
 
 // Both side by side; the statement gets to know their numbers.
@@ -85,11 +87,12 @@ void LightRecords::sampled_records(Making& making, size_t l) {
     LightQuestion question;
     question.domain = domain_of(*making.grid.look);
     LightAnswer answer(question, making.at.count, arena);
-    LitGrid lit(frame_, making, l);
+    LitGrid lit(making, l);
     std::span<float*> out = run_kernel(making, l, lit, &answer);
-    keep_counts(making, l, answer.counts());
-    for (const LightSampleRows* rows = answer.first(); rows; rows = rows->next)
-        sample_record(making, l, *rows, out, answer.counts());
+    const CountedSamples samples(answer, making.at, making.grid.ray.most_samples, uint32_t(l),
+                                 arena);
+    keep_counts(making, l, samples.counts());
+    for (size_t k = 0; k < samples.most(); ++k) sample_record(making, l, samples, k, out);
 }
 
 // Beside each other for all points of the grid: records at other points are made lane by lane.
@@ -109,13 +112,14 @@ void LightRecords::keep_counts(Making& making, size_t l, const float* counts) co
     std::copy_n(counts, making.at.count, row + making.at.first);
 }
 
-void LightRecords::sample_record(Making& making, size_t l, const LightSampleRows& rows,
-                                 std::span<float* const> out, const float* counts) const {
+void LightRecords::sample_record(Making& making, size_t l, const CountedSamples& samples, size_t k,
+                                 std::span<float* const> out) const {
     const size_t points = padded(making.at.count);
     SampleColumns sample(making.grid.memory.arena, points);
     for (size_t i = 0; i < points; ++i) {
-        const PointSample at(rows, i, far_);
-        const float density = at.shines ? at.pdf * counts[i] : 0.0f;
+        const LightSampleRows* rows = samples.find(k, i);
+        const PointSample at = rows ? PointSample(*rows, i, far_) : PointSample();
+        const float density = at.shines ? at.pdf * samples.counts()[i] : 0.0f;
         const bool counts_for = density > 0;
         sample.set(i, at.L, counts_for ? at.Cl / (float(kPi) * density) : vec3(0.0f), density);
     }
@@ -140,7 +144,7 @@ void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall
     for (int k = 0; k < 3; ++k) question.along[k] = along_argument(call, kAlong + k);
     const size_t count = making.at.count, points = padded(count);
     LightAnswer answer(question, count, grid.memory.arena);
-    LitGrid lit(frame_, making, l);
+    LitGrid lit(making, l);
     std::span<float*> out = run_kernel(making, l, lit, &answer);
     if (!answer.first()) return;
     const float* samples = grid.sample_counts.empty() ? nullptr : grid.sample_counts[l];
