@@ -298,6 +298,40 @@ TEST(SampledLights, ShadowsTakeSamplesAway) {
     EXPECT_NEAR(r.color(14, 8).x, want, 1e-2 * want);
 }
 
+// Walls that the camera sees gather four rays, where those arrive the lamp sends sixteen samples.
+TEST(SampledLights, FewerCountBehindRaysOfMany) {
+    auto rendered = [](uint32_t behind) {
+        SceneText scene;
+        scene.cube("box", 10).look("wall", R"(surface wall() {
+            float depth = 0;
+            normal Nf = normalize(faceforward(N, I));
+            rayinfo("depth", depth);
+            Oi = 1;
+            if (depth == 0)
+                Ci = indirectdiffuse(P, Nf, 4);
+            else
+                Ci = diffuse(Nf);
+        })");
+        scene.place("box", "wall");
+        scene.rsl_light("lamp", kSphere, "<translate>1 2 -1</translate>", number("samples", 16));
+        SceneOptions options;
+        options.quality.samples_behind = behind;
+        auto made = std::make_unique<Rendering>(scene.text(), options);
+        EXPECT_EQ(made->findings(), "");
+        made->settings.integrator.samples_per_pixel = 16;
+        made->frame();
+        return made;
+    };
+    const auto all = rendered(0), one = rendered(1), five = rendered(5);
+    constexpr double kOthers = 5.0 * 256 * 16;  // of the camera, and gathered
+    const auto sent = [](const auto& r) { return double(r->stats.rays) - kOthers; };
+    EXPECT_NEAR(sent(all) / sent(one), 16, 0.5);
+    EXPECT_NEAR(sent(all) / sent(five), 16 / 5.0, 0.1);
+    const double want = mean(all->film).x;
+    EXPECT_NEAR(mean(one->film).x, want, 5e-3 * want);
+    EXPECT_NEAR(mean(five->film).x, want, 5e-3 * want);
+}
+
 // ---- lobes of stdrsl under a white sky ----------------------------------------------------------
 
 // A square that the camera sees at that angle, within a cube that shines 1.
