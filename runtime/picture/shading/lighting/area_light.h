@@ -1,5 +1,4 @@
-// runtime/picture/shading/lighting/area_light.h: lights on geometry: where on it each lit point
-// looks.
+// runtime/picture/shading/lighting/area_light.h: lights on geometry: their triangles and shapes.
 #pragma once
 
 #include <memory>
@@ -8,6 +7,7 @@
 
 #include "raytrace/accel.h"
 #include "raytrace/random/series.h"
+#include "runtime/picture/lights/lamp_shape.h"
 #include "runtime/picture/lights/light_bindings.h"
 #include "runtime/picture/shading/grid.h"
 #include "runtime/picture/shading/lighting/lit_points.h"
@@ -16,29 +16,40 @@ namespace kinora {
 
 // One sample of an area light for each of a number of lit points.
 struct LightSamples {
-    // For the points of `grid` from `first` on, yet to be chosen; what a light kernel's services
-    // may read of a hit is 0.
+    // Yet to be chosen; what a light kernel's services may read of a hit is 0.
+    LightSamples(Arena& arena, size_t count, uint32_t surface);
+    // For the points of `grid` from `first` on.
     LightSamples(const Grid& grid, size_t first, size_t count, uint32_t surface);
+    // Finds where the samples are from primitive, u and v.
+    void find_points(const raytrace::Accel& accel) const;
 
     raytrace::HitBatch hits;
     std::span<uint32_t> instance, primitive;
     float *u, *v;
     raytrace::Accel::SurfacePoints on_surface;
+    // By solid angle, of one sample alone; 0 where a point has no sample.
+    static constexpr float kByArea = -1;  // it follows from the area
+    float* density;
 };
 
-// One of the samples that a light has at a point.
-struct SampleNumber {
-    uint32_t number, of;
-};
-
-// A light on geometry: its triangles by area.
+// A light on geometry: its triangles by area, and what they are together.
 struct AreaLight {
     uint32_t surface = kNone;
     bool directed = false;     // else its light comes from no point of it
     std::vector<float> below;  // area of the triangles up to each, summed
     bool known = false;
+    LampShape shape;         // of all triangles, accel space
+    bool by_angle = false;   // its samples are even in the solid angle of the shape
+    bool hides_far = false;  // its triangles let no shadow ray through to those behind them
     bool has_area() const { return !below.empty() && below.back() > 0; }
 };
+
+// A place on the light's triangles, even in area for u in the unit square.
+struct LampPlace {
+    uint32_t triangle = 0;
+    vec2 uv{0.0f};
+};
+LampPlace place_on(const AreaLight& light, vec2 u);
 
 // Samples of lights that have an extent: of those on geometry and of solar with an angle. Where
 // neither the option nor the file says how many, a surface with rays of indirect light takes fewer,
@@ -48,18 +59,22 @@ uint32_t light_samples(const ShadingFrame& frame, size_t light, bool beside_indi
 class AreaLights {
   public:
     AreaLights(const ShadingFrame& frame, const LightBindings& bindings);
-    // Areas once, and again in each frame where the mesh may deform or be scaled.
+    // Areas and shapes once, and again in each frame where the mesh may deform or be scaled.
     void begin_frame();
     // Light `light` among Scene::lights; null where it is none on geometry.
     const AreaLight* find(size_t light) const { return lights_[light].get(); }
     bool any() const { return any_; }
-    // A sample of the light at each point; `lit` is the grid that its kernel runs on.
-    void choose(const Grid& lit, const LightPoints& at, const AreaLight& light, SampleNumber sample,
-                LightSamples& samples) const;
+    void sample_by_angle(size_t light, bool by_angle) { lights_[light]->by_angle = by_angle; }
 
   private:
+    void find_areas(AreaLight& light) const;
+    void find_shape(AreaLight& light);
+    bool hides_far(size_t light) const;
+
     const ShadingFrame& frame_;
+    const LightBindings& bindings_;
     std::vector<std::unique_ptr<AreaLight>> lights_;
+    std::vector<dvec3> corners_;  // of one light's triangles
     bool any_ = false;
 };
 

@@ -1,14 +1,16 @@
 // runtime/picture/shading/lighting/area_records.cpp: records of lights on geometry: of samples of
 // their meshes, and of what they send from directions that a material has chosen.
 //
-// A sample is d^2 / (area cos') dense by solid angle, and its radiance is pi Cl times that: so Cl /
-// n is the Cl of a record (sampled_records.cpp).
+// A sample that is even in area is d^2 / (area cos') dense by solid angle, and its radiance is pi
+// Cl times that: so Cl / n is the Cl of a record (sampled_records.cpp). Where samples have another
+// density, Cl counts by the ratio of the two.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "raytrace/hits.h"
 #include "runtime/picture/shading/lane_rays.h"
+#include "runtime/picture/shading/lighting/lamp_sampler.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/scene/kernels/columns.h"
 
@@ -21,7 +23,11 @@ class LightRecords::AreaKernel {
     AreaKernel(const AreaKernel&) = delete;
     // The outputs for the samples as they are chosen.
     std::span<float*> run();
-    // Of the samples, by solid angle, were each the only one.
+    // d^2 / (area cos') of the light that a statement sends.
+    std::span<float> by_area(const LightOutputs& statement, std::span<float* const> out) const;
+    // The share of Cl that counts of each sample.
+    std::span<float> shares() const;
+    // Of the samples, by solid angle, all samples of a point together.
     std::span<float> densities(const LightOutputs& statement, std::span<float* const> out) const;
     // Whether the light may reach a point: a surface does not light itself.
     bool may_light(size_t i) const {
@@ -31,6 +37,7 @@ class LightRecords::AreaKernel {
     const AreaLight& light;
     const LightPoints& at;
     LightSamples samples;
+    LampSampler sampler;
     Grid lit;
     const uint32_t count;  // samples of a point
 
@@ -57,6 +64,7 @@ LightRecords::AreaKernel::AreaKernel(LightRecords& all, const Making& making, si
     : light(*all.area_lights_.find(l)),
       at(making.at),
       samples(making.grid, at.first, at.count, light.surface),
+      sampler(light, at, making.grid.memory),
       lit(all.frame_, making.grid.memory, samples.hits,
           numbers_up_to(at.count, making.grid.memory.arena),
           all.frame_.shaders.shader_instances[all.frame_.lights.lights[l].look].get()),
@@ -96,9 +104,19 @@ std::span<float*> LightRecords::AreaKernel::run() {
     return all_.kernels_.run(lit.look->full, lit);
 }
 
-std::span<float> LightRecords::AreaKernel::densities(const LightOutputs& statement,
-                                                     std::span<float* const> out) const {
+namespace {
+
+// d^2 / (area cos') of a sample from which L leads to the light.
+float density_by_area(vec3 L, vec3 Ng, float area) {
     constexpr float kMost = 1e30f;
+    const float square = glm::dot(L, L), across = std::abs(glm::dot(Ng, L)) * area;
+    return across > 0 ? std::min(square * std::sqrt(square) / across, kMost) : kMost;
+}
+
+}  // namespace
+
+std::span<float> LightRecords::AreaKernel::by_area(const LightOutputs& statement,
+                                                   std::span<float* const> out) const {
     std::span<float> density = arena_.allocate_span<float>(padded(at.count));
     const float area = light.has_area() ? light.below.back() : 0.0f;
     for (size_t i = 0; i < density.size(); ++i) {
@@ -106,9 +124,31 @@ std::span<float> LightRecords::AreaKernel::densities(const LightOutputs& stateme
         const vec3 L(out[size_t(statement.L[0])][point], out[size_t(statement.L[1])][point],
                      out[size_t(statement.L[2])][point]);
         const vec3 Ng = lit.frame.camera_from_accel * triple(samples.hits.Ng, point);
-        const float square = glm::dot(L, L), length = std::sqrt(square);
-        const float across = std::abs(glm::dot(Ng, L)) * area;
-        density[i] = across > 0 ? std::min(square * length / across, kMost) : kMost;
+        density[i] = density_by_area(L, Ng, area);
+    }
+    return density;
+}
+
+std::span<float> LightRecords::AreaKernel::shares() const {
+    std::span<float> share = arena_.allocate_span<float>(padded(at.count));
+    for (size_t i = 0; i < share.size(); ++i) {
+        const size_t point = std::min(i, at.count - 1);
+        const float dense = samples.density[point];
+        share[i] = may_light(i) ? 1 / float(count) : 0.0f;
+        if (share[i] == 0 || dense == LightSamples::kByArea) continue;
+        const vec3 L = triple(samples.hits.P, point) - triple(at.accel, point);
+        const float even = density_by_area(L, triple(samples.hits.Ng, point), light.below.back());
+        share[i] = dense > 0 ? even / (dense * float(count)) : 0.0f;
+    }
+    return share;
+}
+
+std::span<float> LightRecords::AreaKernel::densities(const LightOutputs& statement,
+                                                     std::span<float* const> out) const {
+    std::span<float> density = by_area(statement, out);
+    for (size_t i = 0; i < density.size(); ++i) {
+        const float dense = samples.density[std::min(i, at.count - 1)];
+        density[i] = (dense == LightSamples::kByArea ? density[i] : dense) * float(count);
     }
     return density;
 }
@@ -147,16 +187,13 @@ void scale(const LightOutputs& statement, std::span<float* const> out, size_t po
 
 void LightRecords::area_record(Making& making, size_t l, AreaKernel& kernel,
                                const LightOutputs& own, std::span<float* const> out) const {
-    const size_t points = padded(making.at.count);
-    scale(own, out, points,
-          [&](size_t i) { return kernel.may_light(i) ? 1 / float(kernel.count) : 0.0f; });
+    const std::span<const float> shares = kernel.shares();
+    scale(own, out, padded(making.at.count), [&](size_t i) { return shares[i]; });
     LightOutputs statement = own;
     std::span<float* const> columns = out;
-    if (is_weighed(*making.grid.look, own)) {
-        std::span<float> density = kernel.densities(own, out);
-        for (float& dense : density) dense *= float(kernel.count);
-        columns = with_density(statement, out, density, making.grid.memory.arena);
-    }
+    if (is_weighed(*making.grid.look, own))
+        columns =
+            with_density(statement, out, kernel.densities(own, out), making.grid.memory.arena);
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     make_record(making, statement, binding, binding.messages, columns, true, &kernel.samples);
 }
@@ -164,10 +201,12 @@ void LightRecords::area_record(Making& making, size_t l, AreaKernel& kernel,
 void LightRecords::area_records(Making& making, size_t l) {
     AreaKernel kernel(*this, making, l);
     for (uint32_t k = 0; k < kernel.count; ++k) {
-        area_lights_.choose(kernel.lit, making.at, kernel.light, {k, kernel.count}, kernel.samples);
-        std::span<float*> out = kernel.run();
-        for (const LightOutputs& statement : bindings_.statements(l))
-            area_record(making, l, kernel, statement, out);
+        kernel.sampler.choose(kernel.lit, {k, kernel.count}, kernel.samples);
+        do {
+            std::span<float*> out = kernel.run();
+            for (const LightOutputs& statement : bindings_.statements(l))
+                area_record(making, l, kernel, statement, out);
+        } while (kernel.sampler.go_on(kernel.lit, kernel.samples));
     }
 }
 
@@ -242,17 +281,16 @@ void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& 
         samples.u[lane] = hits.u[h];
         samples.v[lane] = hits.v[h];
     }
-    frame_.pose.accel.surface_points(making.at.count, samples.instance.data(),
-                                     samples.primitive.data(), samples.u, samples.v,
-                                     samples.on_surface);
+    for (size_t i = 0; i < making.at.count; ++i) samples.density[i] = kernel.sampler.density(i);
+    samples.find_points(frame_.pose.accel);
     std::span<float*> out = kernel.run();
     for (const LightOutputs& own : bindings_.statements(l)) {
         if (!is_weighed(*making.grid.look, own)) continue;
-        std::span<float> density = kernel.densities(own, out);
+        const std::span<const float> by_area = kernel.by_area(own, out);
+        const std::span<float> density = kernel.densities(own, out);
         scale(own, out, padded(making.at.count), [&](size_t i) {
             if (i >= jit::kMaxLanes || !met[i] || !kernel.may_light(i)) return 0.0f;
-            const float radiance = float(kPi) * density[i];
-            density[i] *= float(kernel.count);
+            const float radiance = float(kPi) * by_area[i];
             return radiance * sample_weight(along_argument(call, kMaterialDensity)[i], density[i],
                                             along_argument(call, kHeuristic)[i]);
         });

@@ -35,27 +35,6 @@ uint32_t surface_of(const Grid& grid, size_t point) {
     return grid.hits.instance[grid.points[point]];
 }
 
-// The columns of a light's kernel at hits of its mesh, lit: where their rays come from.
-void fill_light_columns(Grid& lit, const ShadingFrame& frame) {
-    auto is_lit = [](uint16_t c) { return c >= kColPs && c < kColNs + 3; };
-    auto is_sent = [](uint16_t c) { return c >= kColSentL && c < kColSentL + 3; };
-    for (uint16_t column : lit.look->full.columns)
-        if (!is_lit(column) && !is_sent(column)) want_columns(lit, {&column, 1});
-    gather(lit);
-    for (uint16_t column : lit.look->full.columns) {
-        if (!is_lit(column) && !is_sent(column)) continue;
-        float* const row = lit.memory.arena.allocate_span<float>(padded(lit.count())).data();
-        std::fill_n(row, padded(lit.count()), 0.0f);
-        lit.columns[column] = row;
-        for (size_t i = 0; is_lit(column) && i < lit.count(); ++i) {
-            const vec3 org = triple(lit.hits.org, lit.points[i]) - frame.eye;
-            const vec3 of_row = frame.camera_from_accel *
-                                (column < kColNs ? org : triple(lit.hits.dir, lit.points[i]));
-            row[i] = of_row[(column - kColPs) % 3];
-        }
-    }
-}
-
 // Cl d^2 / cos' of a statement of the grid's light at each hit.
 void find_exitance(const Grid& lit, const LightOutputs& statement, std::span<float* const> out,
                    std::span<vec3> exitance) {
@@ -76,6 +55,26 @@ void find_exitance(const Grid& lit, const LightOutputs& statement, std::span<flo
 }
 
 }  // namespace
+
+void fill_light_columns(Grid& lit, const ShadingFrame& frame) {
+    auto is_lit = [](uint16_t c) { return c >= kColPs && c < kColNs + 3; };
+    auto is_sent = [](uint16_t c) { return c >= kColSentL && c < kColSentL + 3; };
+    for (uint16_t column : lit.look->full.columns)
+        if (!is_lit(column) && !is_sent(column)) want_columns(lit, {&column, 1});
+    gather(lit);
+    for (uint16_t column : lit.look->full.columns) {
+        if (!is_lit(column) && !is_sent(column)) continue;
+        float* const row = lit.memory.arena.allocate_span<float>(padded(lit.count())).data();
+        std::fill_n(row, padded(lit.count()), 0.0f);
+        lit.columns[column] = row;
+        for (size_t i = 0; is_lit(column) && i < lit.count(); ++i) {
+            const vec3 org = triple(lit.hits.org, lit.points[i]) - frame.eye;
+            const vec3 of_row = frame.camera_from_accel *
+                                (column < kColNs ? org : triple(lit.hits.dir, lit.points[i]));
+            row[i] = of_row[(column - kColPs) % 3];
+        }
+    }
+}
 
 static_assert(kColNs == kColPs + 3);
 

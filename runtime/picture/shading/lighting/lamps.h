@@ -13,6 +13,9 @@ namespace kinora {
 class KernelRunner;
 class LightRecords;
 
+// Fills the columns of a light's kernel at hits of its mesh, lit: where their rays come from.
+void fill_light_columns(Grid& lit, const ShadingFrame& frame);
+
 class Lamps {
   public:
     Lamps(ShadingFrame& frame, KernelRunner& kernels, const LightRecords& lights);

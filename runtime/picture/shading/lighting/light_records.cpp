@@ -12,6 +12,7 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/columns/sixteen_points.h"
 #include "runtime/picture/lights/cone_samples.h"
+#include "runtime/picture/shading/lighting/lamp_probe.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/kernels/columns.h"
@@ -110,9 +111,10 @@ size_t LightRecords::samples_of(size_t light, const LightOutputs& statement,
     return size_t(samples_at(grid.ray, int(asked_samples(light, statement, indirect))));
 }
 
-void LightRecords::begin_frame(bool all) {
+void LightRecords::begin_frame(bool all, ThreadMemory& memory) {
     all_ = all;
     area_lights_.begin_frame();
+    choose_sampling(memory);
     reaches_.resize(frame_.lights.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l)
         if (all || bindings_.asked(l))
@@ -122,6 +124,13 @@ void LightRecords::begin_frame(bool all) {
         choice_.begin_frame(frame_.nodes, frame_.pose, all_lights_.present,
                             frame_.quality.light_choice);
     if (!choice_.groups().empty()) find_others();
+}
+
+void LightRecords::choose_sampling(ThreadMemory& memory) {
+    for (size_t l = 0; area_lights_.any() && l < frame_.lights.lights.size(); ++l)
+        if (const AreaLight* light = area_lights_.find(l); light && (all_ || bindings_.asked(l)))
+            area_lights_.sample_by_angle(
+                l, suits_by_angle(frame_, kernels_, memory, *light, l, bindings_.statements(l)));
 }
 
 // By the box of the whole scene, so that the grids need not ask of each light again.
@@ -334,10 +343,10 @@ void LightRecords::shadow_sample(const Making& making, const SentLight& sent) co
     if (sent.casts) grid.shadows->cast(grid, making.at, sent);
 }
 
-LightRecords::LitGrid::LitGrid(const ShadingFrame& frame, const Making& making, size_t light)
-    : Grid(frame, making.grid.memory, making.grid.hits,
+LightRecords::LitGrid::LitGrid(const ShadingFrame& of, const Making& making, size_t light)
+    : Grid(of, making.grid.memory, making.grid.hits,
            making.grid.points.subspan(making.at.first, making.at.count),
-           &look_of_light(frame, light)) {}
+           &look_of_light(of, light)) {}
 
 void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswer* answer) const {
     Grid& grid = making.grid;

@@ -33,7 +33,7 @@ class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
     // `all`: records of lights that reach no point are made too.
-    void begin_frame(bool all);
+    void begin_frame(bool all, ThreadMemory& memory);
     // Whether some loop of the scene's shaders asks for that one of Scene::lights.
     bool asked(size_t light) const { return bindings_.asked(light); }
 
@@ -72,6 +72,7 @@ class LightRecords {
     bool is_dark(const Grid& grid, size_t light, const Sphere& points) const;
     void make_records(Making& making, size_t light);
     void find_present();
+    void choose_sampling(ThreadMemory& memory);  // of lights on geometry
     void find_others();
     // Whether points of the look are lit by a few of many lights.
     bool chooses(const ShaderInstance& look) const;
