@@ -158,4 +158,28 @@ LampShape find_lamp_shape(std::span<const dvec3> corners) {
     return shape.kind != LampShape::Kind::Other && cover(corners, shape) ? shape : LampShape{};
 }
 
+PlaneFacets facets_of(const LampShape& rectangle, std::span<const dvec3> corners,
+                      std::span<const uint32_t> numbers) {
+    PlaneFacets facets;
+    if (numbers.size() > PlaneFacets::kMost) return facets;
+    auto on_plane = [&](dvec3 p) {
+        return dvec2(glm::dot(p, rectangle.axis[0]), glm::dot(p, rectangle.axis[1]));
+    };
+    auto across_of = [](dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; };
+    for (size_t t = 0; t < numbers.size(); ++t) {
+        const dvec3* p = &corners[3 * t];
+        const dvec2 at = on_plane(p[0] - rectangle.corner), a = on_plane(p[1] - p[0]),
+                    b = on_plane(p[2] - p[0]);
+        const double area = across_of(a, b);
+        if (area == 0) continue;
+        const size_t f = facets.count++;
+        const double u[3] = {b.y / area, -b.x / area, -across_of(at, b) / area};
+        const double v[3] = {-a.y / area, a.x / area, -across_of(a, at) / area};
+        std::copy_n(u, 3, facets.u[f]);
+        std::copy_n(v, 3, facets.v[f]);
+        facets.triangle[f] = numbers[t];
+    }
+    return facets;
+}
+
 }  // namespace kinora

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "runtime/base/math.h"
+#include "runtime/picture/lights/angle_kernels.h"
 
 namespace kinora {
 
@@ -23,5 +24,9 @@ struct LampShape {
 //   Rectangle: a plane one that the triangles fill once, whatever their number.
 //   Sphere: the corners lie on it, and the triangles have at least 0.7 of its area.
 LampShape find_lamp_shape(std::span<const dvec3> corners);
+
+// The triangles of a rectangle, which have these numbers; none where there are more than it holds.
+PlaneFacets facets_of(const LampShape& rectangle, std::span<const dvec3> corners,
+                      std::span<const uint32_t> numbers);
 
 }  // namespace kinora

@@ -86,15 +86,20 @@ void AreaLights::find_shape(AreaLight& light) {
     light.shape = {};
     if (!light.has_area()) return;
     corners_.clear();
+    numbers_.clear();
     float before = 0;
     for (uint32_t t = 0; t < light.below.size(); ++t) {
-        const bool has_area = light.below[t] > std::exchange(before, light.below[t]);
-        for (int k = 0; has_area && k < 3; ++k) {
+        if (!(light.below[t] > std::exchange(before, light.below[t]))) continue;
+        numbers_.push_back(t);
+        for (int k = 0; k < 3; ++k) {
             const float u = k == 1 ? 1.0f : 0.0f, v = k == 2 ? 1.0f : 0.0f;
             corners_.push_back(dvec3(frame_.pose.accel.surface_point(light.surface, t, u, v).p));
         }
     }
     light.shape = find_lamp_shape(corners_);
+    light.facets = {};
+    if (light.shape.kind == LampShape::Kind::Rectangle)
+        light.facets = facets_of(light.shape, corners_, numbers_);
 }
 
 bool AreaLights::hides_far(size_t light) const {

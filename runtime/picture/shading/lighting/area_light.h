@@ -39,6 +39,7 @@ struct AreaLight {
     std::vector<float> below;  // area of the triangles up to each, summed
     bool known = false;
     LampShape shape;         // of all triangles, accel space
+    PlaneFacets facets;      // of a rectangle of few triangles
     bool by_angle = false;   // its samples are even in the solid angle of the shape
     bool hides_far = false;  // its triangles let no shadow ray through to those behind them
     bool has_area() const { return !below.empty() && below.back() > 0; }
@@ -74,7 +75,8 @@ class AreaLights {
     const ShadingFrame& frame_;
     const LightBindings& bindings_;
     std::vector<std::unique_ptr<AreaLight>> lights_;
-    std::vector<dvec3> corners_;  // of one light's triangles
+    std::vector<dvec3> corners_;  // of one light's triangles that have an area
+    std::vector<uint32_t> numbers_;
     bool any_ = false;
 };
 

@@ -34,16 +34,27 @@ class LampSampler {
         float window;  // as in RayPacket16
         uint32_t passed_first, passed_last;
     };
-    void aim(size_t i, size_t point, vec2 u);
+    void see(Arena& arena);
+    size_t point_of(size_t row) const { return std::min(row, at_.count - 1); }
+    void choose_by_area(size_t first, const AngleLanes& u, const AngleLanes& v,
+                        LightSamples& samples) const;
+    void choose_on_rectangle(size_t first, const AngleLanes& u, const AngleLanes& v,
+                             LightSamples& samples);
+    void choose_on_sphere(size_t first, const AngleLanes& u, const AngleLanes& v);
     bool meet(const Grid& lit, LightSamples& samples);
     void meet_sixteen(const Grid& lit, size_t first, uint32_t lanes, LightSamples& samples);
     void load(size_t first, uint32_t lanes, raytrace::RayPacket16& packet) const;
 
     const AreaLight& light_;
     const LightPoints& at_;
-    std::span<SolidAngle> seen_;  // of the shape, by point; none where samples are by area
-    std::span<Ray> rays_;
-    std::span<uint16_t> lanes_;  // whose samples have a ray on its way, a bit each
+    // Where samples are by angle: of points, and of rows of sixteen of them.
+    std::span<float> density_;
+    std::span<RectangleLanes> rectangles_;
+    std::span<SphereLanes> spheres_;
+    std::span<vec2> reach_;  // of a sphere: where rays may meet it
+    std::span<Ray> rays_;    // none where triangles of a rectangle are found without
+    // A bit of each point of a row: samples by angle; those whose ray is on its way.
+    std::span<uint16_t> by_angle_, on_way_;
 };
 
 }  // namespace kinora

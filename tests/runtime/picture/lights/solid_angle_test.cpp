@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <string>
 #include <vector>
 
 #include "runtime/picture/lights/angles.h"
@@ -17,11 +18,6 @@ namespace {
 using Corners = std::vector<dvec3>;
 
 TEST(Angles, AreThoseOfTheLibrary) {
-    for (int k = -4000; k <= 4000; ++k) {
-        const double angle = k * 0.0023;
-        EXPECT_NEAR(sine_cosine(angle).sine, std::sin(angle), 2e-15) << angle;
-        EXPECT_NEAR(sine_cosine(angle).cosine, std::cos(angle), 2e-15) << angle;
-    }
     for (double size : {1e-200, 1e-9, 1.0, 1e9})
         for (int k = 0; k <= 2000; ++k) {
             const double angle = kPi * k / 2000, x = std::cos(angle), y = std::abs(std::sin(angle));
@@ -159,18 +155,51 @@ dvec3 integral_of_directions(const Corners& polygon) {
     return sum;
 }
 
-constexpr int kSteps = 400;
+// All kernels that this CPU runs; what they give is the same.
+class SolidAngles : public testing::TestWithParam<size_t> {
+  protected:
+    const AngleKernels& kernels() const { return *usable_angle_kernels().kernels[GetParam()]; }
 
-// The mean of unit directions of samples at the middles of a grid.
-dvec3 mean_direction(const SolidAngle& seen) {
-    dvec3 sum(0.0);
-    for (int i = 0; i < kSteps; ++i)
-        for (int j = 0; j < kSteps; ++j)
-            sum += glm::normalize(seen.sample((i + 0.5) / kSteps, (j + 0.5) / kSteps).direction);
-    return sum / double(kSteps * kSteps);
-}
+    // From P to samples at the middles of a grid of steps x steps; of a rectangle as they are.
+    std::vector<dvec3> ways(const LampShape& shape, dvec3 P, int steps) const {
+        const SolidAngle seen(shape, P);
+        const bool sphere = shape.kind == LampShape::Kind::Sphere;
+        RectangleLanes rectangles;
+        SphereLanes spheres;
+        for (size_t lane = 0; lane < kAngleLanes; ++lane)
+            sphere ? seen.put(spheres, lane) : seen.put(rectangles, lane);
+        std::vector<dvec3> found;
+        for (int k = 0; k < steps * steps; k += int(kAngleLanes)) {
+            AngleLanes u, v, at[3];
+            for (int j = 0; j < int(kAngleLanes); ++j) {
+                u[j] = ((k + j) % steps + 0.5) / steps;
+                v[j] = ((k + j) / steps + 0.5) / steps;
+            }
+            if (sphere)
+                kernels().to_spheres(spheres, u, v, at);
+            else
+                kernels().to_rectangles(rectangles, u, v, at[0], at[1]);
+            for (size_t j = 0; j < kAngleLanes; ++j)
+                found.push_back(sphere ? dvec3(at[0][j], at[1][j], at[2][j])
+                                       : shape.corner + at[0][j] * shape.axis[0] +
+                                             at[1][j] * shape.axis[1] - P);
+        }
+        return found;
+    }
 
-TEST(SolidAngles, OfRectanglesAreEvenFromTinyOnesToHalfTheSky) {
+    dvec3 mean_direction(const LampShape& shape, dvec3 P) const {
+        const std::vector<dvec3> all = ways(shape, P, 400);
+        dvec3 sum(0.0);
+        for (const dvec3& way : all) sum += glm::normalize(way);
+        return sum / double(all.size());
+    }
+};
+INSTANTIATE_TEST_SUITE_P(All, SolidAngles, testing::Range<size_t>(0, usable_angle_kernels().count),
+                         [](const auto& kernel) {
+                             return std::string(usable_angle_kernels().kernels[kernel.param]->name);
+                         });
+
+TEST_P(SolidAngles, OfRectanglesAreEvenFromTinyOnesToHalfTheSky) {
     const Corners polygon = {{-1, -0.3, 0}, {1, -0.3, 0}, {1, 0.3, 0}, {-1, 0.3, 0}};
     const LampShape shape = find_lamp_shape(grid({-1, -0.3}, {1, 0.3}, 1));
     for (const dvec3& P : {dvec3(0.2, 0.1, 1), dvec3(0.2, 0.1, -1), dvec3(0, 0, 1e-3),
@@ -183,27 +212,55 @@ TEST(SolidAngles, OfRectanglesAreEvenFromTinyOnesToHalfTheSky) {
         const SolidAngle seen(shape, P);
         EXPECT_NEAR(seen.density() * angle, 1, 1e-7) << P.x << " " << P.z;
         const dvec3 want = integral_of_directions(from) * (P.z > 0 ? -1.0 : 1.0) / angle;
-        const dvec3 got = mean_direction(seen);
+        const dvec3 got = mean_direction(shape, P);
         EXPECT_LE(glm::length(got - want), 1e-4 * glm::length(want)) << P.x << " " << P.z;
     }
 }
 
-// A sample lies on the rectangle, and within the range that its ray is given.
-TEST(SolidAngles, SamplesLieOnTheRectangle) {
+TEST_P(SolidAngles, SamplesLieOnTheRectangle) {
     const LampShape shape = find_lamp_shape(grid({-1, -0.3}, {1, 0.3}, 1));
     for (const dvec3& P : {dvec3(0.2, 0.1, 1), dvec3(0, 0, 1e-5), dvec3(1, 0.3, -1e-4)})
-        for (int k = 0; k < 4096; ++k) {
-            const SolidAngle::Way way =
-                SolidAngle(shape, P).sample((k % 64) / 63.999, (k / 64) / 63.999);
-            const dvec3 at = P + way.direction;
+        for (const dvec3& way : ways(shape, P, 64)) {
+            const dvec3 at = P + way;
             EXPECT_LE(std::abs(at.x), 1 + 1e-9);
             EXPECT_LE(std::abs(at.y), 0.3 + 1e-9);
             EXPECT_NEAR(at.z, 0, 1e-12);
-            EXPECT_TRUE(way.near < 1 && 1 < way.far);
         }
 }
 
-TEST(SolidAngles, OfSpheresAreEvenInTheirCones) {
+// Places of a rectangle of triangles whose corners come in any order.
+TEST_P(SolidAngles, FacetsAreThoseOfThePlaces) {
+    Corners corners = placed(grid({-1, -0.3}, {1, 0.3}, 2), turned({3, -2, 9}, 40));
+    for (size_t t = 0; t < 8; t += 3) std::swap(corners[3 * t], corners[3 * t + 1]);
+    for (size_t t = 0; t < 8; t += 2) std::swap(corners[3 * t + 1], corners[3 * t + 2]);
+    Corners whole = placed(grid({-1, -0.3}, {1, 0.3}, 2), turned({3, -2, 9}, 40));
+    LampShape found = find_lamp_shape(whole);
+    ASSERT_EQ(found.kind, LampShape::Kind::Rectangle);
+    const std::vector<uint32_t> numbers = {7, 6, 5, 4, 3, 2, 1, 0};
+    const PlaneFacets facets = facets_of(found, corners, numbers);
+    ASSERT_EQ(facets.count, 8u);
+    for (int k = 0; k < 400; k += int(kAngleLanes)) {
+        AngleLanes x, y;
+        for (int j = 0; j < int(kAngleLanes); ++j) {
+            x[j] = found.side[0] * ((k + j) % 20 + 0.5) / 20;
+            y[j] = found.side[1] * ((k + j) / 20 + 0.5) / 20;
+        }
+        uint32_t triangle[kAngleLanes];
+        float u[kAngleLanes], v[kAngleLanes];
+        kernels().on_facets(facets, x, y, triangle, u, v);
+        for (size_t j = 0; j < kAngleLanes; ++j) {
+            ASSERT_LT(triangle[j], 8u);
+            const dvec3* p = &corners[3 * (7 - triangle[j])];
+            const dvec3 at = p[0] + double(u[j]) * (p[1] - p[0]) + double(v[j]) * (p[2] - p[0]);
+            const dvec3 want = found.corner + x[j] * found.axis[0] + y[j] * found.axis[1];
+            EXPECT_LE(glm::length(at - want), 2e-6) << k + int(j);
+            EXPECT_TRUE(u[j] >= 0 && v[j] >= 0 && u[j] + v[j] <= 1 + 1e-6f);
+        }
+    }
+    EXPECT_EQ(facets_of(found, whole, std::vector<uint32_t>(9)).count, 0u);
+}
+
+TEST_P(SolidAngles, OfSpheresAreEvenInTheirCones) {
     const LampShape shape = find_lamp_shape(ball(8, 16));
     for (double distance : {1.001, 1.2, 3.0, 1e3, 9e4}) {
         const dvec3 axis = glm::normalize(dvec3(1, -2, 0.5));
@@ -211,17 +268,19 @@ TEST(SolidAngles, OfSpheresAreEvenInTheirCones) {
         const double sine2 = 1 / (distance * distance), cosine = std::sqrt(1 - sine2);
         const double opening = sine2 / (1 + cosine);
         EXPECT_NEAR(seen.density() * 2 * kPi * opening, 1, 1e-9);
-        const dvec3 mean = mean_direction(seen);
+        const dvec3 mean = mean_direction(shape, distance * axis);
         EXPECT_LE(glm::length(mean + axis * (1 - 0.5 * opening)), 1e-6) << distance;
-        for (int k = 0; k < 1024; ++k) {
-            const SolidAngle::Way way = seen.sample((k % 32) / 31.999, (k / 32) / 31.999);
-            EXPECT_LE(1 + glm::dot(way.direction, axis), opening * (1 + 1e-6) + 1e-15);
+        EXPECT_LT(seen.near(), distance - 1);
+        EXPECT_GT(seen.far(), distance + 1);
+        for (const dvec3& way : ways(shape, distance * axis, 32)) {
+            EXPECT_NEAR(glm::length(way), 1, 1e-12);
+            EXPECT_LE(1 + glm::dot(way, axis), opening * (1 + 1e-6) + 1e-15);
         }
     }
 }
 
 // There the caller takes samples by area.
-TEST(SolidAngles, AreLeftOutWhereTheyAreTooSmallOrTheLampTooNear) {
+TEST_P(SolidAngles, AreLeftOutWhereTheyAreTooSmallOrTheLampTooNear) {
     const LampShape square = find_lamp_shape(grid({-1, -1}, {1, 1}, 1)),
                     sphere = find_lamp_shape(ball(8, 16));
     for (const dvec3& P : {dvec3(0, 0, 0), dvec3(0.5, 0, 1e-8), dvec3(5, 5, 0), dvec3(0, 0, 1e6)})
