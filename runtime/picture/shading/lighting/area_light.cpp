@@ -43,7 +43,9 @@ AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings)
         if (source.surface == kNone) continue;
         light = std::make_unique<AreaLight>();
         any_ = true;
-        light->surface = source.surface;
+        light->surfaces = source.emitting;
+        light->emits = !source.emitting.empty();
+        if (!light->emits) light->surfaces = {source.surface};
         light->directed = bindings.directed(l);
     }
 }
@@ -53,8 +55,11 @@ void AreaLights::begin_frame() {
     for (size_t l = 0; l < lights_.size(); ++l) {
         if (!lights_[l]) continue;
         AreaLight& light = *lights_[l];
-        const Shape& shape = shapes.shapes[shapes.surfaces[light.surface].shape];
-        if (light.known && shape.kind == raytrace::GeometryKind::Static) continue;
+        const bool still = std::ranges::all_of(light.surfaces, [&](uint32_t surface) {
+            const Shape& shape = shapes.shapes[shapes.surfaces[surface].shape];
+            return shape.kind == raytrace::GeometryKind::Static;
+        });
+        if (light.known && still) continue;
         find_areas(light);
         find_shape(light);
         light.hides_far = hides_far(l);
@@ -62,29 +67,59 @@ void AreaLights::begin_frame() {
     }
 }
 
-void AreaLights::find_areas(AreaLight& light) const {
+void AreaLights::find_areas(AreaLight& light) {
+    light.areas.clear();
+    light.first.clear();
+    light.power.clear();
+    for (uint32_t surface : light.surfaces) add_areas(light, surface);
+    light.first.push_back(uint32_t(light.areas.size()));
+    sum_up(light);
+}
+
+void AreaLights::sum_up(AreaLight& light) {
+    light.below.resize(light.areas.size());
+    double sum = 0;
+    for (size_t t = 0; t < light.areas.size(); ++t) {
+        sum += light.areas[t] * (light.power.empty() ? 1.0 : double(light.power[t]));
+        light.below[t] = float(sum);
+    }
+}
+
+void AreaLights::add_areas(AreaLight& light, uint32_t number) {
     const SceneShapes& shapes = frame_.shapes;
-    const Surface& surface = shapes.surfaces[light.surface];
+    const Surface& surface = shapes.surfaces[number];
     const Shape& shape = shapes.shapes[surface.shape];
     const ShapePose& stands = frame_.pose.shapes[surface.shape];
     const auto& triangles = shapes.meshes[shape.mesh].groups[surface.group].triangles;
     bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
     dmat3 linear = instanced ? dmat3(stands.world) : dmat3(1.0);
-    light.below.resize(triangles.size() / 3);
-    double sum = 0;
-    for (size_t t = 0; t < light.below.size(); ++t) {
+    light.first.push_back(uint32_t(light.areas.size()));
+    for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
         auto corner = [&](size_t k) {
-            return linear * dvec3(stands.shown_positions[triangles[3 * t + k]]);
+            return linear * dvec3(stands.shown_positions[triangles[t + k]]);
         };
-        double area = 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-        if (std::isfinite(area)) sum += area;
-        light.below[t] = float(sum);
+        const double area =
+            0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+        light.areas.push_back(std::isfinite(area) ? area : 0.0);
     }
+}
+
+void AreaLights::weigh(size_t number, std::span<const float> power) {
+    AreaLight& light = *lights_[number];
+    light.power.assign(power.begin(), power.end());
+    sum_up(light);
+}
+
+float AreaLight::area_at(uint32_t surface, uint32_t triangle) const {
+    if (power.empty()) return below.back();
+    const auto part = std::ranges::lower_bound(surfaces, surface) - surfaces.begin();
+    return below.back() / power[first[size_t(part)] + triangle];
 }
 
 void AreaLights::find_shape(AreaLight& light) {
     light.shape = {};
-    if (!light.has_area()) return;
+    light.facets = {};
+    if (!light.has_area() || light.surfaces.size() > 1) return;
     corners_.clear();
     numbers_.clear();
     float before = 0;
@@ -93,18 +128,21 @@ void AreaLights::find_shape(AreaLight& light) {
         numbers_.push_back(t);
         for (int k = 0; k < 3; ++k) {
             const float u = k == 1 ? 1.0f : 0.0f, v = k == 2 ? 1.0f : 0.0f;
-            corners_.push_back(dvec3(frame_.pose.accel.surface_point(light.surface, t, u, v).p));
+            corners_.push_back(
+                dvec3(frame_.pose.accel.surface_point(light.surfaces[0], t, u, v).p));
         }
     }
     light.shape = find_lamp_shape(corners_);
-    light.facets = {};
     if (light.shape.kind == LampShape::Kind::Rectangle)
         light.facets = facets_of(light.shape, corners_, numbers_);
 }
 
 bool AreaLights::hides_far(size_t light) const {
-    const raytrace::Geometry& row = frame_.pose.rows[lights_[light]->surface];
-    return row.opaque && (row.seen_by & raytrace::kSeenByShadows) != 0 &&
+    auto blocks = [&](uint32_t surface) {
+        const raytrace::Geometry& row = frame_.pose.rows[surface];
+        return row.opaque && (row.seen_by & raytrace::kSeenByShadows) != 0;
+    };
+    return std::ranges::all_of(lights_[light]->surfaces, blocks) &&
            std::ranges::all_of(bindings_.statements(light), &LightOutputs::casts_shadow);
 }
 
@@ -114,7 +152,8 @@ LampPlace place_on(const AreaLight& light, vec2 u) {
     size_t t = size_t(std::upper_bound(below.begin(), below.end(), wanted) - below.begin());
     t = std::min(t, below.size() - 1);
     const float from = t ? below[t - 1] : 0.0f, area = below[t] - from;
-    return {uint32_t(t),
+    const auto part = std::ranges::upper_bound(light.first, uint32_t(t)) - light.first.begin() - 1;
+    return {light.surfaces[size_t(part)], uint32_t(t) - light.first[size_t(part)],
             on_triangle(area > 0 ? std::min((wanted - from) / area, 1.0f) : 0.0f, u.y)};
 }
 

@@ -1,6 +1,7 @@
 // runtime/picture/shading/lighting/area_light.h: lights on geometry: their triangles and shapes.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -34,20 +35,27 @@ struct LightSamples {
 
 // A light on geometry: its triangles by area, and what they are together.
 struct AreaLight {
-    uint32_t surface = kNone;
-    bool directed = false;     // else its light comes from no point of it
-    std::vector<float> below;  // area of the triangles up to each, summed
+    std::vector<uint32_t> surfaces;  // of more than one where it emits
+    std::vector<uint32_t> first;     // triangle of each surface, and how many there are
+    bool directed = false;           // else its light comes from no point of it
+    bool emits = false;              // what its surfaces show by themselves, in the place of Cl
+    std::vector<double> areas;       // of the triangles
+    std::vector<float> power;        // samples by area, of each; none: all alike
+    std::vector<float> below;        // area times power of the triangles up to each, summed
     bool known = false;
     LampShape shape;         // of all triangles, accel space
     PlaneFacets facets;      // of a rectangle of few triangles
     bool by_angle = false;   // its samples are even in the solid angle of the shape
     bool hides_far = false;  // its triangles let no shadow ray through to those behind them
     bool has_area() const { return !below.empty() && below.back() > 0; }
+    bool has(uint32_t surface) const { return std::ranges::binary_search(surfaces, surface); }
+    // The area that the whole light would have, were it as dense in samples as at a triangle.
+    float area_at(uint32_t surface, uint32_t triangle) const;
 };
 
-// A place on the light's triangles, even in area for u in the unit square.
+// A place on the light's triangles, even in weight for u in the unit square.
 struct LampPlace {
-    uint32_t triangle = 0;
+    uint32_t surface = 0, triangle = 0;
     vec2 uv{0.0f};
 };
 LampPlace place_on(const AreaLight& light, vec2 u);
@@ -66,9 +74,14 @@ class AreaLights {
     const AreaLight* find(size_t light) const { return lights_[light].get(); }
     bool any() const { return any_; }
     void sample_by_angle(size_t light, bool by_angle) { lights_[light]->by_angle = by_angle; }
+    // Triangles of a light get samples by their area times `power`, one number for each; none: by
+    // area alone.
+    void weigh(size_t light, std::span<const float> power);
 
   private:
-    void find_areas(AreaLight& light) const;
+    void find_areas(AreaLight& light);
+    void add_areas(AreaLight& light, uint32_t surface);
+    static void sum_up(AreaLight& light);
     void find_shape(AreaLight& light);
     bool hides_far(size_t light) const;
 

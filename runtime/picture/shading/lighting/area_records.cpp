@@ -10,6 +10,7 @@
 
 #include "raytrace/hits.h"
 #include "runtime/picture/shading/lane_rays.h"
+#include "runtime/picture/shading/lighting/emission.h"
 #include "runtime/picture/shading/lighting/lamp_sampler.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/scene/kernels/columns.h"
@@ -29,9 +30,10 @@ class LightRecords::AreaKernel {
     std::span<float> shares() const;
     // Of the samples, by solid angle, all samples of a point together.
     std::span<float> densities(const LightOutputs& statement, std::span<float* const> out) const;
-    // Whether the light may reach a point: a surface does not light itself.
+    // Whether the light may reach a point: a surface does not light itself, but for emission.
     bool may_light(size_t i) const {
-        return light.has_area() && at.surface[std::min(i, at.count - 1)] != light.surface;
+        return light.has_area() &&
+               (light.emits || at.surface[std::min(i, at.count - 1)] != light.surfaces[0]);
     }
 
     const AreaLight& light;
@@ -44,8 +46,14 @@ class LightRecords::AreaKernel {
   private:
     // What the kernel reads of the lit point; the rest is the mesh's.
     const float* of_point(uint16_t column) const;
+    void put_emission(std::span<float*> out) const;
+    float area_at(size_t point) const {
+        return light.has_area() ? light.area_at(samples.instance[point], samples.primitive[point])
+                                : 0.0f;
+    }
 
     LightRecords& all_;
+    const size_t number_;  // of the light
     Arena& arena_;
     std::span<float*> mesh_;  // columns
 };
@@ -63,13 +71,14 @@ std::span<uint32_t> numbers_up_to(size_t count, Arena& arena) {
 LightRecords::AreaKernel::AreaKernel(LightRecords& all, const Making& making, size_t l)
     : light(*all.area_lights_.find(l)),
       at(making.at),
-      samples(making.grid, at.first, at.count, light.surface),
+      samples(making.grid, at.first, at.count, light.surfaces[0]),
       sampler(light, at, making.grid.memory),
       lit(all.frame_, making.grid.memory, samples.hits,
           numbers_up_to(at.count, making.grid.memory.arena),
           all.frame_.shaders.shader_instances[all.frame_.lights.lights[l].look].get()),
       count(uint32_t(all.samples_of(l, all.bindings_.statements(l)[0], making.grid))),
       all_(all),
+      number_(l),
       arena_(making.grid.memory.arena) {
     Grid& grid = making.grid;
     all.kernels_.prepare(lit, grid.ray);
@@ -101,7 +110,21 @@ std::span<float*> LightRecords::AreaKernel::run() {
     for (uint16_t column : lit.look->full.columns)
         if (const float* row = of_point(column)) lit.columns[column] = const_cast<float*>(row);
     lit.memory.counters.light_points += at.count;
-    return all_.kernels_.run(lit.look->full, lit);
+    std::span<float*> out = all_.kernels_.run(lit.look->full, lit);
+    if (light.emits) put_emission(out);
+    return out;
+}
+
+// In the place of Cl: radiance over pi times the density by area.
+void LightRecords::AreaKernel::put_emission(std::span<float*> out) const {
+    const LightOutputs& statement = all_.bindings_.statements(number_)[0];
+    std::span<vec3> emission = arena_.allocate_span<vec3>(at.count);
+    find_emission(all_.frame_, all_.kernels_, lit, samples, at, emission);
+    const std::span<const float> density = by_area(statement, out);
+    for (size_t i = 0; i < padded(at.count); ++i)
+        for (int k = 0; k < 3; ++k)
+            out[size_t(statement.Cl[k])][i] =
+                emission[std::min(i, at.count - 1)][k] / (float(kPi) * density[i]);
 }
 
 namespace {
@@ -118,13 +141,12 @@ float density_by_area(vec3 L, vec3 Ng, float area) {
 std::span<float> LightRecords::AreaKernel::by_area(const LightOutputs& statement,
                                                    std::span<float* const> out) const {
     std::span<float> density = arena_.allocate_span<float>(padded(at.count));
-    const float area = light.has_area() ? light.below.back() : 0.0f;
     for (size_t i = 0; i < density.size(); ++i) {
         const size_t point = std::min(i, at.count - 1);
         const vec3 L(out[size_t(statement.L[0])][point], out[size_t(statement.L[1])][point],
                      out[size_t(statement.L[2])][point]);
         const vec3 Ng = lit.frame.camera_from_accel * triple(samples.hits.Ng, point);
-        density[i] = density_by_area(L, Ng, area);
+        density[i] = density_by_area(L, Ng, area_at(point));
     }
     return density;
 }
@@ -137,7 +159,7 @@ std::span<float> LightRecords::AreaKernel::shares() const {
         share[i] = may_light(i) ? 1 / float(count) : 0.0f;
         if (share[i] == 0 || dense == LightSamples::kByArea) continue;
         const vec3 L = triple(samples.hits.P, point) - triple(at.accel, point);
-        const float even = density_by_area(L, triple(samples.hits.Ng, point), light.below.back());
+        const float even = density_by_area(L, triple(samples.hits.Ng, point), area_at(point));
         share[i] = dense > 0 ? even / (dense * float(count)) : 0.0f;
     }
     return share;
@@ -251,7 +273,7 @@ void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
             raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskLamp, making.grid.depth + 1,
                             nested->hits, memory.counters.trace);
         for (size_t l = 0; l < frame_.lights.lights.size(); ++l)
-            if (area_lights_.find(l) && bindings_.binding(making.grid.look->index, l).seen)
+            if (area_lights_.find(l) && !is_dark(making.grid, l, {}))
                 lamp_along(making, l, call, rays, hits);
         for (size_t h = 0; h < hits.count; ++h)
             raytrace::pass_through(frame_.pose.accel, rays, h, hits, h);
@@ -263,10 +285,10 @@ void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
 
 void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& call,
                               const raytrace::RayBatch& rays, const raytrace::HitBatch& hits) {
-    const uint32_t surface = area_lights_.find(l)->surface;
-    const uint32_t only = frame_.insight.only_light;
-    if (std::count(hits.instance, hits.instance + hits.count, surface) == 0) return;
-    if (only != kNone && only != l) return;
+    const AreaLight& light = *area_lights_.find(l);
+    if (std::none_of(hits.instance, hits.instance + hits.count,
+                     [&](uint32_t surface) { return light.has(surface); }))
+        return;
     AreaKernel kernel(*this, making, l);
     LightSamples& samples = kernel.samples;
     std::fill(samples.primitive.begin(), samples.primitive.end(), 0u);
@@ -275,8 +297,9 @@ void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& 
     bool met[jit::kMaxLanes] = {};
     for (size_t h = 0; h < hits.count; ++h) {
         const uint32_t lane = rays.slot[hits.ray[h]];
-        if (hits.instance[h] != surface) continue;
+        if (!light.has(hits.instance[h])) continue;
         met[lane] = true;
+        samples.instance[lane] = hits.instance[h];
         samples.primitive[lane] = hits.primitive[h];
         samples.u[lane] = hits.u[h];
         samples.v[lane] = hits.v[h];

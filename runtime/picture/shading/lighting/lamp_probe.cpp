@@ -38,7 +38,8 @@ dvec3 place_about(const LampShape& shape, size_t k) {
 // Samples of the mesh by area, each lit from the place of its turn.
 struct Probes {
     Probes(Arena& arena, const AreaLight& light, const raytrace::Accel& accel)
-        : samples(arena, kProbes, light.surface), numbers(arena.allocate_span<uint32_t>(kProbes)) {
+        : samples(arena, kProbes, light.surfaces[0]),
+          numbers(arena.allocate_span<uint32_t>(kProbes)) {
         float* org[3];
         for (size_t c = 0; c < 3; ++c) {
             org[c] = arena.allocate_span<float>(padded(kProbes)).data();
@@ -94,6 +95,7 @@ bool suits_by_angle(const ShadingFrame& frame, const KernelRunner& kernels, Thre
                     const AreaLight& light, size_t number,
                     std::span<const LightOutputs> statements) {
     if (light.shape.kind == LampShape::Kind::Other) return false;
+    if (light.emits) return true;  // one radiance all over, or a texture
     const Arena::Mark mark = memory.arena.mark();
     const Probes probes(memory.arena, light, frame.pose.accel);
     Grid lit(frame, memory, probes.samples.hits, probes.numbers,

@@ -92,8 +92,9 @@ void LampSampler::choose_by_area(size_t first, const AngleLanes& u, const AngleL
     const uint32_t by_angle = by_angle_.empty() ? 0 : by_angle_[first / kRow];
     for (size_t j = 0; j < kRow; ++j) {
         const size_t i = first + j;
-        LampPlace place;
+        LampPlace place{light_.surfaces[0], 0, vec2(0.0f)};
         if (!(by_angle >> j & 1)) place = place_on(light_, vec2(u[j], v[j]));
+        samples.instance[i] = place.surface;
         samples.primitive[i] = place.triangle;
         samples.u[i] = place.uv.x;
         samples.v[i] = place.uv.y;
@@ -193,7 +194,7 @@ void LampSampler::meet_sixteen(const Grid& lit, size_t first, uint32_t lanes,
                 ray = {ray.dir, hits.t[j] * (1 - kAboutHit),
                        ray.far, hits.t[j] * (1 + kAboutHit),
                        body,    kNone};
-            if (hits.instance[j] != light_.surface) continue;
+            if (hits.instance[j] != light_.surfaces[0]) continue;
             left &= ~(1u << j);
             found |= 1u << j;
             samples.primitive[i] = hits.primitive[j];

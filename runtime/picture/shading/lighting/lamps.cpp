@@ -91,12 +91,14 @@ void Lamps::find_lamps() {
     made_.resize(looks.size());
     const rsl::Shader* const made = library_shader("area_emitter").get();
     for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
-        const uint32_t surface = frame_.lights.lights[l].surface;
-        if (surface == kNone || !lights_.bindings().directed(l)) continue;
-        of_surface_[surface].push_back(l);
-        const uint32_t look = frame_.shapes.surfaces[surface].look;
-        wears_[look] = true;
-        made_[look] = &looks[look]->shader() == made;
+        const AreaLight* const light = lights_.areas().find(l);
+        if (!light || !lights_.bindings().directed(l)) continue;
+        for (uint32_t surface : light->surfaces) {
+            of_surface_[surface].push_back(l);
+            const uint32_t look = frame_.shapes.surfaces[surface].look;
+            wears_[look] = true;
+            made_[look] = &looks[look]->shader() == made;
+        }
     }
 }
 
@@ -156,11 +158,13 @@ void Lamps::show(Grid& grid, raytrace::ShadeResult& result) {
 }
 
 void Lamps::find_radiance(Grid& grid, std::span<vec3> radiance) {
-    const auto& lights = frame_.lights.lights;
-    for (size_t l = 0; l < lights.size(); ++l) {
-        if (lights[l].surface == kNone || !lights_.bindings().directed(l)) continue;
-        if (frame_.shapes.surfaces[lights[l].surface].look == grid.look->index)
-            add_radiance(grid, l, radiance);
+    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
+        const AreaLight* const light = lights_.areas().find(l);
+        if (!light || !lights_.bindings().directed(l)) continue;
+        auto wears_look = [&](uint32_t surface) {
+            return frame_.shapes.surfaces[surface].look == grid.look->index;
+        };
+        if (std::ranges::any_of(light->surfaces, wears_look)) add_radiance(grid, l, radiance);
     }
 }
 
@@ -171,11 +175,15 @@ void Lamps::add_radiance(Grid& grid, size_t light, std::span<vec3> radiance) {
     std::span<uint32_t> hits = arena.allocate_span<uint32_t>(grid.count());
     uint32_t count = 0;
     for (uint32_t i = 0; i < grid.count(); ++i)
-        if (surface_of(grid, i) == area.surface) {
+        if (area.has(surface_of(grid, i))) {
             which[count] = i;
             hits[count++] = grid.points[i];
         }
     if (count == 0 || !area.has_area()) return;
+    if (area.emits) {  // whatever it is
+        for (uint32_t i = 0; i < count; ++i) radiance[which[i]] = vec3(1.0f);
+        return;
+    }
     const ShaderInstance& look = look_of(frame_, light);
     Grid lit(frame_, grid.memory, grid.hits, hits.first(count), &look);
     kernels_.prepare(lit, grid.ray);

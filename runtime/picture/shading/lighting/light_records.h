@@ -132,6 +132,7 @@ class LightRecords {
     AreaLights area_lights_;
     LightChoice choice_;
     std::vector<LightReach> reaches_;  // of each light, in this frame
+    std::vector<float> powers_;        // of one light's triangles
     // Lights in their order.
     struct Lights {
         std::vector<size_t> every;
