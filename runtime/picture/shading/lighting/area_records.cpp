@@ -115,28 +115,21 @@ std::span<float*> LightRecords::AreaKernel::run() {
     return out;
 }
 
-// In the place of Cl: radiance over pi times the density by area.
+// In the place of Cl: radiance over pi times the density by area, and of that the samples' share.
 void LightRecords::AreaKernel::put_emission(std::span<float*> out) const {
     const LightOutputs& statement = all_.bindings_.statements(number_)[0];
     std::span<vec3> emission = arena_.allocate_span<vec3>(at.count);
     find_emission(all_.frame_, all_.kernels_, lit, samples, at, emission);
     const std::span<const float> density = by_area(statement, out);
-    for (size_t i = 0; i < padded(at.count); ++i)
+    for (size_t i = 0; i < padded(at.count); ++i) {
+        const size_t point = std::min(i, at.count - 1);
+        const bool even_in_area = samples.density[point] == LightSamples::kByArea;
+        const float share = even_in_area ? share_of_samples(density[i]) : 1.0f;
         for (int k = 0; k < 3; ++k)
             out[size_t(statement.Cl[k])][i] =
-                emission[std::min(i, at.count - 1)][k] / (float(kPi) * density[i]);
+                emission[point][k] * share / (float(kPi) * density[i]);
+    }
 }
-
-namespace {
-
-// d^2 / (area cos') of a sample from which L leads to the light.
-float density_by_area(vec3 L, vec3 Ng, float area) {
-    constexpr float kMost = 1e30f;
-    const float square = glm::dot(L, L), across = std::abs(glm::dot(Ng, L)) * area;
-    return across > 0 ? std::min(square * std::sqrt(square) / across, kMost) : kMost;
-}
-
-}  // namespace
 
 std::span<float> LightRecords::AreaKernel::by_area(const LightOutputs& statement,
                                                    std::span<float* const> out) const {

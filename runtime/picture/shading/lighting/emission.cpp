@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "raytrace/hits.h"
+#include "runtime/picture/lights/solid_angle.h"
 #include "runtime/picture/shading/kernel_runner.h"
 
 namespace kinora {
@@ -91,6 +92,26 @@ struct Middles {
 };
 
 }  // namespace
+
+float density_by_area(vec3 L, vec3 Ng, float area) {
+    constexpr float kMost = 1e30f;
+    const float square = glm::dot(L, L), across = std::abs(glm::dot(Ng, L)) * area;
+    return across > 0 ? std::min(square * std::sqrt(square) / across, kMost) : kMost;
+}
+
+float share_of_samples(float density) {
+    constexpr float kFew = 0.2f;
+    const float ratio = 1 / (float(kPi) * density);  // of the rays' density to that of samples
+    return ratio < kFew ? 1 : 1 / (1 + ratio * ratio);
+}
+
+float share_of_samples(const AreaLight& light, vec3 from, const raytrace::HitBatch& hits,
+                       uint32_t hit) {
+    if (light.by_angle && SolidAngle(light.shape, dvec3(from)).density() > 0) return 1;
+    const float area = light.area_at(hits.instance[hit], hits.primitive[hit]);
+    return share_of_samples(
+        density_by_area(triple(hits.P, hit) - from, triple(hits.Ng, hit), area));
+}
 
 void find_emission(const ShadingFrame& frame, const KernelRunner& kernels, const Grid& lit,
                    const LightSamples& samples, const LightPoints& at, std::span<vec3> emission) {

@@ -98,24 +98,45 @@ TEST(Emission, OfARectangleIsTheClosedForm) {
     expect_shares(scene, rectangle_at, 1e-4);
 }
 
-TEST(Emission, OfManySurfacesIsTheirSum) {
-    SceneText scene = room(kMatte, kBlack);
+// Six panels beside each other, each brighter than the one before.
+SceneText under_panels(double height) {
+    SceneText scene = room(kMatte, kBlack, height);
     const LampMesh mesh = rectangle_mesh(0.5, 0.2);
     scene.mesh("lamp", mesh.positions, mesh.triangles, mesh.normals);
     for (int k = 0; k < 6; ++k) {
         const std::string id = fmt::format("glow{}", k);
         add_emitter(scene, id, grey_slot(k));
-        scene.place("lamp", id, fmt::format("<translate>0 {} 2</translate>", 0.3 * k - 0.9));
+        scene.place("lamp", id,
+                    fmt::format("<translate>0 {} {}</translate>", 0.3 * k - 0.9, height));
     }
-    auto share = [](dvec2 p) {
-        double sum = 0;
-        for (int k = 0; k < 6; ++k) {
-            const dvec2 middle(0, 0.3 * k - 0.9), corner(0.25, 0.1);
-            sum += k * rectangle_share(p, middle - corner, middle + corner, kLampHeight);
-        }
-        return sum;
-    };
-    expect_shares(scene, share, 0.01);
+    return scene;
+}
+double panels_at(dvec2 p, double height) {
+    double sum = 0;
+    for (int k = 0; k < 6; ++k) {
+        const dvec2 middle(0, 0.3 * k - 0.9), corner(0.25, 0.1);
+        sum += k * rectangle_share(p, middle - corner, middle + corner, height);
+    }
+    return sum;
+}
+
+TEST(Emission, OfManySurfacesIsTheirSum) {
+    expect_shares(
+        under_panels(kLampHeight), [](dvec2 p) { return panels_at(p, kLampHeight); }, 0.01);
+}
+
+// Near them, rays find a part of the light that is not left to samples.
+TEST(Emission, OfSurfacesNearbyCountsOnceBySamplesAndRays) {
+    constexpr double kNear = 0.15;
+    Rendering r(under_panels(kNear).text(), with_bounces(1, 16));
+    sample_middles(r, 256);
+    r.frame(32, 32);
+    double got = 0, want = 0;
+    for (int k = 0; k < 1024; ++k) {
+        got += double(r.color(k % 32, k / 32).x);
+        want += panels_at(r.place(k % 32, k / 32), kNear);
+    }
+    EXPECT_NEAR(got / want, 1, 0.002);
 }
 
 // The same scene, lit by samples of the material or by rays that meet a surface of RSL as bright.
