@@ -43,6 +43,42 @@ KINORA_KERNEL_PART float neighbour(float x, bool up) {
     return __builtin_bit_cast(float, x == 0 ? of_zero : next);
 }
 
+// Sine and cosine, |x| <= pi/4: Taylor series to the last bits of a double, as the term left out is
+// under 2^-58.
+KINORA_KERNEL_PART double small_sine(double x) {
+    double s = x * x;
+    double p = -7.6471637318198164759e-13;
+    p = p * s + 1.6059043836821614599e-10;
+    p = p * s - 2.5052108385441718775e-8;
+    p = p * s + 2.7557319223985890653e-6;
+    p = p * s - 1.9841269841269841270e-4;
+    p = p * s + 8.3333333333333333333e-3;
+    p = p * s - 1.6666666666666666667e-1;
+    return x + x * (s * p);
+}
+KINORA_KERNEL_PART double small_cosine(double x) {
+    double s = x * x;
+    double p = 4.7794773323873852974e-14;
+    p = p * s - 1.1470745597729724714e-11;
+    p = p * s + 2.0876756987868098979e-9;
+    p = p * s - 2.7557319223985890653e-7;
+    p = p * s + 2.4801587301587301587e-5;
+    p = p * s - 1.3888888888888888889e-3;
+    p = p * s + 4.1666666666666666667e-2;
+    return (1 - 0.5 * s) + s * s * p;
+}
+
+// Cosine and sine of 2 pi turn, turn in [0, 1], by the nearest quarter turn and what is left.
+KINORA_KERNEL_PART void turn_to(double turn, double& x, double& y) {
+    double quarter = double(int32_t(turn * 4 + 0.5));
+    double rest = (turn - quarter * 0.25) * 6.283185307179586477;
+    double s = small_sine(rest), co = small_cosine(rest);
+    bool odd = quarter == 1 || quarter == 3;
+    double cx = odd ? s : co, sx = odd ? co : s;
+    x = quarter == 1 || quarter == 2 ? -cx : cx;
+    y = quarter == 2 || quarter == 3 ? -sx : sx;
+}
+
 #undef KINORA_KERNEL_PART
 
 }  // namespace kinora

@@ -15,6 +15,8 @@ struct LightSource {
     uint32_t look = kNone;
     uint32_t surface = kNone;  // whose triangles shine; kNone: no area light
     uint32_t listed = kNone;   // the definition that surfaces list; kNone: it reaches all
+    // Surfaces whose own emission the light is, `surface` the first; none of other lights.
+    std::vector<uint32_t> emitting = {};
 };
 
 struct SceneLights {

@@ -16,32 +16,6 @@ namespace {
 using Row = float[kSixteen];
 using Rows = float[3][kSixteen];
 
-// ---- sine and cosine of 2 pi turn, turn in [0, 1) -----------------------------------------------
-
-// Taylor series on [-pi/4, pi/4], to the last bits of a double: the term left out is under 2^-58.
-inline double sine(double x) {
-    double s = x * x;
-    double p = -7.6471637318198164759e-13;
-    p = p * s + 1.6059043836821614599e-10;
-    p = p * s - 2.5052108385441718775e-8;
-    p = p * s + 2.7557319223985890653e-6;
-    p = p * s - 1.9841269841269841270e-4;
-    p = p * s + 8.3333333333333333333e-3;
-    p = p * s - 1.6666666666666666667e-1;
-    return x + x * (s * p);
-}
-inline double cosine(double x) {
-    double s = x * x;
-    double p = 4.7794773323873852974e-14;
-    p = p * s - 1.1470745597729724714e-11;
-    p = p * s + 2.0876756987868098979e-9;
-    p = p * s - 2.7557319223985890653e-7;
-    p = p * s + 2.4801587301587301587e-5;
-    p = p * s - 1.3888888888888888889e-3;
-    p = p * s + 4.1666666666666666667e-2;
-    return (1 - 0.5 * s) + s * s * p;
-}
-
 // Along the axes of a cone. By cosine: a disc's uniform points lifted to the sphere (Malley); else
 // uniform in solid angle.
 struct InCone {
@@ -66,16 +40,7 @@ void in_cones(const uint32_t* number, const uint32_t* seed, const float* cosines
         double left = 1 - up[i] * up[i];
         out[i] = __builtin_sqrt(left > 0 ? left : 0.0);
     }
-    KINORA_SIXTEEN {
-        // The nearest quarter turn and what is left of it.
-        double quarter = double(int32_t(turn[i] * 4 + 0.5));
-        double rest = (turn[i] - quarter * 0.25) * 6.283185307179586477;
-        double s = sine(rest), co = cosine(rest);
-        bool odd = quarter == 1 || quarter == 3;
-        double cx = odd ? s : co, sx = odd ? co : s;
-        along_x[i] = quarter == 1 || quarter == 2 ? -cx : cx;
-        along_y[i] = quarter == 2 || quarter == 3 ? -sx : sx;
-    }
+    KINORA_SIXTEEN turn_to(turn[i], along_x[i], along_y[i]);
     KINORA_SIXTEEN {
         to.x[i] = float(out[i] * along_x[i]);
         to.y[i] = float(out[i] * along_y[i]);

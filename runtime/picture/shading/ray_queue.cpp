@@ -20,13 +20,13 @@ namespace {
 constexpr float kLeastLight = 1e-4f;  // of what lies behind them, still worth a ray
 constexpr float kLeastRays = 16;      // that any point may shoot
 
+}  // namespace
+
 bool is_too_deep(const RayKindRow& row, const Grid& grid) {
     const Quality& quality = grid.frame.quality;
     return is_too_deep(row,
                        {grid.depth, grid.ray.diffuse, quality.ray_depth, quality.diffuse_depth});
 }
-
-}  // namespace
 
 void set_kind(raytrace::RayBatch& rays, size_t first, RayKind kind) {
     std::fill(rays.sees + first, rays.sees + rays.count, row_of(kind).sees);

@@ -147,6 +147,8 @@ class RayNotes {
 };
 
 // Whether the kernel of a look calls services whose rays may be sent from the grid's points and
+// Whether depth forbids rays of the kind to leave the grid's points.
+bool is_too_deep(const RayKindRow& row, const Grid& grid);
 // wait for others.
 bool sends_noted_rays(const ShaderInstance& look, const Grid& grid);
 

@@ -151,7 +151,7 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
     const bool all = !std::exchange(objects_->all_ran, true) || all_inputs;
     update_looks(frame, objects_->looks_run, all);
     set_view(frame);
-    objects_->lights.begin_frame(all_inputs);
+    objects_->lights.begin_frame(all_inputs, *threads[0]);
     frame.miss_distance =
         objects_->fills_space || objects_->dome.stands() ? frame.far_distance : 0.0f;
 }

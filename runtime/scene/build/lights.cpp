@@ -5,6 +5,7 @@
 
 #include "runtime/scene/build/area_lights.h"
 #include "runtime/scene/build/defaults.h"
+#include "runtime/scene/build/emission.h"
 #include "runtime/scene/build/environment.h"
 #include "runtime/scene/build/instances/instances.h"
 #include "runtime/scene/build/light_watts.h"
@@ -149,7 +150,6 @@ void add_shining_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse
 
 // After the lights of the scene, which it carries on. It stands nowhere, so any node will do.
 void add_indirect_light(Scene& scene) {
-    if (is_hidden(*scene.description, kIndirectLight)) return;
     LightDefinition light;
     light.id = light.name = kIndirectLight;
     light.shader.shader = library_shader("indirectlight");
@@ -163,7 +163,10 @@ bool add_lights(Scene& scene, NodeTree& tree, std::span<const SurfaceUse> uses,
                 Diagnostics& diagnostics) {
     add_shining_lights(scene, tree, uses, diagnostics);
     if (!add_environment(scene, tree, diagnostics)) return false;
-    if (scene.options.indirect > 0) add_indirect_light(scene);
+    if (scene.options.indirect > 0 && !is_hidden(*scene.description, kIndirectLight)) {
+        add_indirect_light(scene);
+        add_emission_lights(scene, uses);
+    }
     return true;
 }
 

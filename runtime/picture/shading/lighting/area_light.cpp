@@ -1,19 +1,17 @@
 // runtime/picture/shading/lighting/area_light.cpp: lights on geometry: their shaders run at samples
 // of the mesh.
 //
-// Each lit point asks n samples, spread evenly over the area: an Owen-scrambled (0,2)-sequence
-// seeded by the point and the light, so that the first 2^k are stratified and nothing depends on
-// threads or tiles. A sample is a light of its own (P, N, u, v, s, t on the mesh; what the shader
-// illuminates is a record) whose Cl counts 1/n: the mean over the surface of what a point light
-// with that shader would give, so a light that shrinks to a point becomes that point light. The
-// samples follow the mesh of the frame. A surface does not light itself.
+// Each lit point asks n samples (lamp_sampler.cpp). A sample is a light of its own (P, N, u, v, s,
+// t on the mesh; what the shader illuminates is a record) whose Cl counts 1/n where samples are
+// even in area: the mean over the surface of what a point light with that shader would give, so a
+// light that shrinks to a point becomes that point light. The samples follow the mesh of the frame.
+// A surface does not light itself.
 #include "runtime/picture/shading/lighting/area_light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include "raytrace/sampling.h"
+#include <utility>
 
 namespace kinora {
 
@@ -37,69 +35,129 @@ uint32_t light_samples(const ShadingFrame& frame, size_t light, bool beside_indi
     return own ? own : beside_indirect ? kSamplesBesideIndirect : kUsualSamples;
 }
 
-AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings) : frame_(frame) {
+AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings)
+    : frame_(frame), bindings_(bindings) {
     for (size_t l = 0; l < frame.lights.lights.size(); ++l) {
         const LightSource& source = frame.lights.lights[l];
         auto& light = lights_.emplace_back();
         if (source.surface == kNone) continue;
         light = std::make_unique<AreaLight>();
         any_ = true;
-        light->surface = source.surface;
+        light->surfaces = source.emitting;
+        light->emits = !source.emitting.empty();
+        if (!light->emits) light->surfaces = {source.surface};
         light->directed = bindings.directed(l);
     }
 }
 
 void AreaLights::begin_frame() {
     const SceneShapes& shapes = frame_.shapes;
-    for (auto& light : lights_) {
-        if (!light) continue;
-        const Surface& surface = shapes.surfaces[light->surface];
-        const Shape& shape = shapes.shapes[surface.shape];
-        const ShapePose& stands = frame_.pose.shapes[surface.shape];
-        if (light->known && shape.kind == raytrace::GeometryKind::Static) continue;
-        const auto& triangles = shapes.meshes[shape.mesh].groups[surface.group].triangles;
-        bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
-        dmat3 linear = instanced ? dmat3(stands.world) : dmat3(1.0);
-        light->below.resize(triangles.size() / 3);
-        double sum = 0;
-        for (size_t t = 0; t < light->below.size(); ++t) {
-            auto corner = [&](size_t k) {
-                return linear * dvec3(stands.shown_positions[triangles[3 * t + k]]);
-            };
-            double area =
-                0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-            if (std::isfinite(area)) sum += area;
-            light->below[t] = float(sum);
+    for (size_t l = 0; l < lights_.size(); ++l) {
+        if (!lights_[l]) continue;
+        AreaLight& light = *lights_[l];
+        const bool still = std::ranges::all_of(light.surfaces, [&](uint32_t surface) {
+            const Shape& shape = shapes.shapes[shapes.surfaces[surface].shape];
+            return shape.kind == raytrace::GeometryKind::Static;
+        });
+        if (light.known && still) continue;
+        find_areas(light);
+        find_shape(light);
+        light.hides_far = hides_far(l);
+        light.known = true;
+    }
+}
+
+void AreaLights::find_areas(AreaLight& light) {
+    light.areas.clear();
+    light.first.clear();
+    light.power.clear();
+    for (uint32_t surface : light.surfaces) add_areas(light, surface);
+    light.first.push_back(uint32_t(light.areas.size()));
+    sum_up(light);
+}
+
+void AreaLights::sum_up(AreaLight& light) {
+    light.below.resize(light.areas.size());
+    double sum = 0;
+    for (size_t t = 0; t < light.areas.size(); ++t) {
+        sum += light.areas[t] * (light.power.empty() ? 1.0 : double(light.power[t]));
+        light.below[t] = float(sum);
+    }
+}
+
+void AreaLights::add_areas(AreaLight& light, uint32_t number) {
+    const SceneShapes& shapes = frame_.shapes;
+    const Surface& surface = shapes.surfaces[number];
+    const Shape& shape = shapes.shapes[surface.shape];
+    const ShapePose& stands = frame_.pose.shapes[surface.shape];
+    const auto& triangles = shapes.meshes[shape.mesh].groups[surface.group].triangles;
+    bool instanced = shape.kind == raytrace::GeometryKind::Instanced;
+    dmat3 linear = instanced ? dmat3(stands.world) : dmat3(1.0);
+    light.first.push_back(uint32_t(light.areas.size()));
+    for (size_t t = 0; t + 2 < triangles.size(); t += 3) {
+        auto corner = [&](size_t k) {
+            return linear * dvec3(stands.shown_positions[triangles[t + k]]);
+        };
+        const double area =
+            0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+        light.areas.push_back(std::isfinite(area) ? area : 0.0);
+    }
+}
+
+void AreaLights::weigh(size_t number, std::span<const float> power) {
+    AreaLight& light = *lights_[number];
+    light.power.assign(power.begin(), power.end());
+    sum_up(light);
+}
+
+float AreaLight::area_at(uint32_t surface, uint32_t triangle) const {
+    if (power.empty()) return below.back();
+    const auto part = std::ranges::lower_bound(surfaces, surface) - surfaces.begin();
+    return below.back() / power[first[size_t(part)] + triangle];
+}
+
+void AreaLights::find_shape(AreaLight& light) {
+    light.shape = {};
+    light.facets = {};
+    if (!light.has_area() || light.surfaces.size() > 1) return;
+    corners_.clear();
+    numbers_.clear();
+    float before = 0;
+    for (uint32_t t = 0; t < light.below.size(); ++t) {
+        if (!(light.below[t] > std::exchange(before, light.below[t]))) continue;
+        numbers_.push_back(t);
+        for (int k = 0; k < 3; ++k) {
+            const float u = k == 1 ? 1.0f : 0.0f, v = k == 2 ? 1.0f : 0.0f;
+            corners_.push_back(
+                dvec3(frame_.pose.accel.surface_point(light.surfaces[0], t, u, v).p));
         }
-        light->known = true;
     }
+    light.shape = find_lamp_shape(corners_);
+    if (light.shape.kind == LampShape::Kind::Rectangle)
+        light.facets = facets_of(light.shape, corners_, numbers_);
 }
 
-void AreaLights::choose(const Grid& lit, const LightPoints& at, const AreaLight& light,
-                        SampleNumber sample, LightSamples& samples) const {
-    lit.note_random();
+bool AreaLights::hides_far(size_t light) const {
+    auto blocks = [&](uint32_t surface) {
+        const raytrace::Geometry& row = frame_.pose.rows[surface];
+        return row.opaque && (row.seen_by & raytrace::kSeenByShadows) != 0;
+    };
+    return std::ranges::all_of(lights_[light]->surfaces, blocks) &&
+           std::ranges::all_of(bindings_.statements(light), &LightOutputs::casts_shadow);
+}
+
+LampPlace place_on(const AreaLight& light, vec2 u) {
     const std::vector<float>& below = light.below;
-    uint32_t number = uint32_t(lit.look->index);  // tells lights on one surface apart
-    for (size_t i = 0; i < padded(at.count); ++i) {
-        size_t point = std::min(i, at.count - 1);
-        const raytrace::SampleSeries series =
-            raytrace::series_of(at.series[point], raytrace::hash(number, frame_.seed));
-        vec2 u(raytrace::stratified_sample(series.part * sample.of + sample.number, series.seed));
-        float wanted = u.x * below.back();
-        size_t t = size_t(std::upper_bound(below.begin(), below.end(), wanted) - below.begin());
-        t = std::min(t, below.size() - 1);
-        float from = t ? below[t - 1] : 0.0f, area = below[t] - from;
-        vec2 uv = on_triangle(area > 0 ? std::min((wanted - from) / area, 1.0f) : 0.0f, u.y);
-        samples.primitive[i] = uint32_t(t);
-        samples.u[i] = uv.x;
-        samples.v[i] = uv.y;
-    }
-    frame_.pose.accel.surface_points(at.count, samples.instance.data(), samples.primitive.data(),
-                                     samples.u, samples.v, samples.on_surface);
+    const float wanted = u.x * below.back();
+    size_t t = size_t(std::upper_bound(below.begin(), below.end(), wanted) - below.begin());
+    t = std::min(t, below.size() - 1);
+    const float from = t ? below[t - 1] : 0.0f, area = below[t] - from;
+    const auto part = std::ranges::upper_bound(light.first, uint32_t(t)) - light.first.begin() - 1;
+    return {light.surfaces[size_t(part)], uint32_t(t) - light.first[size_t(part)],
+            on_triangle(area > 0 ? std::min((wanted - from) / area, 1.0f) : 0.0f, u.y)};
 }
 
-LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_t surface) {
-    Arena& arena = grid.memory.arena;
+LightSamples::LightSamples(Arena& arena, size_t count, uint32_t surface) {
     size_t rows = padded(count);
     auto take = [&] { return arena.allocate_span<float>(rows).data(); };
     float* zeros = take();
@@ -111,14 +169,17 @@ LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_
     primitive = arena.allocate_span<uint32_t>(rows);
     u = take();
     v = take();
+    density = take();
     hits = {};
     hits.count = count;
-    hits.depth = grid.depth;
     hits.geometry = hits.instance = instance.data();
     hits.primitive = primitive.data();
     hits.u = u;
     hits.v = v;
     hits.t = zeros;
+    hits.ray = none.data();
+    hits.time = zeros;
+    hits.pixel_x = hits.pixel_y = hits.sample = hits.layer = none.data();
     for (size_t k = 0; k < 3; ++k) {
         on_surface.P[k] = take();
         on_surface.P_error[k] = take();
@@ -129,6 +190,17 @@ LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_
         hits.org[k] = hits.dir[k] = zeros;
         hits.dPdx[k] = hits.dPdy[k] = hits.dDdx[k] = hits.dDdy[k] = zeros;
     }
+}
+
+void LightSamples::find_points(const raytrace::Accel& accel) const {
+    accel.surface_points(hits.count, instance.data(), primitive.data(), u, v, on_surface);
+}
+
+LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_t surface)
+    : LightSamples(grid.memory.arena, count, surface) {
+    Arena& arena = grid.memory.arena;
+    const size_t rows = padded(count);
+    hits.depth = grid.depth;
     auto pick = [&]<class T>(const T* from) {
         std::span<T> to = arena.allocate_span<T>(rows);
         for (size_t i = 0; i < rows; ++i) to[i] = from[grid.points[first + std::min(i, count - 1)]];
@@ -139,7 +211,6 @@ LightSamples::LightSamples(const Grid& grid, size_t first, size_t count, uint32_
     hits.pixel_y = pick(grid.hits.pixel_y);
     hits.sample = pick(grid.hits.sample);
     hits.layer = pick(grid.hits.layer);
-    hits.ray = none.data();
 }
 
 }  // namespace kinora

@@ -1,14 +1,17 @@
 // runtime/picture/shading/lighting/area_records.cpp: records of lights on geometry: of samples of
 // their meshes, and of what they send from directions that a material has chosen.
 //
-// A sample is d^2 / (area cos') dense by solid angle, and its radiance is pi Cl times that: so Cl /
-// n is the Cl of a record (sampled_records.cpp).
+// A sample that is even in area is d^2 / (area cos') dense by solid angle, and its radiance is pi
+// Cl times that: so Cl / n is the Cl of a record (sampled_records.cpp). Where samples have another
+// density, Cl counts by the ratio of the two.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "raytrace/hits.h"
 #include "runtime/picture/shading/lane_rays.h"
+#include "runtime/picture/shading/lighting/emission.h"
+#include "runtime/picture/shading/lighting/lamp_sampler.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/scene/kernels/columns.h"
 
@@ -21,24 +24,36 @@ class LightRecords::AreaKernel {
     AreaKernel(const AreaKernel&) = delete;
     // The outputs for the samples as they are chosen.
     std::span<float*> run();
-    // Of the samples, by solid angle, were each the only one.
+    // d^2 / (area cos') of the light that a statement sends.
+    std::span<float> by_area(const LightOutputs& statement, std::span<float* const> out) const;
+    // The share of Cl that counts of each sample.
+    std::span<float> shares() const;
+    // Of the samples, by solid angle, all samples of a point together.
     std::span<float> densities(const LightOutputs& statement, std::span<float* const> out) const;
-    // Whether the light may reach a point: a surface does not light itself.
+    // Whether the light may reach a point: a surface does not light itself, but for emission.
     bool may_light(size_t i) const {
-        return light.has_area() && at.surface[std::min(i, at.count - 1)] != light.surface;
+        return light.has_area() &&
+               (light.emits || at.surface[std::min(i, at.count - 1)] != light.surfaces[0]);
     }
 
     const AreaLight& light;
     const LightPoints& at;
     LightSamples samples;
+    LampSampler sampler;
     Grid lit;
     const uint32_t count;  // samples of a point
 
   private:
     // What the kernel reads of the lit point; the rest is the mesh's.
     const float* of_point(uint16_t column) const;
+    void put_emission(std::span<float*> out) const;
+    float area_at(size_t point) const {
+        return light.has_area() ? light.area_at(samples.instance[point], samples.primitive[point])
+                                : 0.0f;
+    }
 
     LightRecords& all_;
+    const size_t number_;  // of the light
     Arena& arena_;
     std::span<float*> mesh_;  // columns
 };
@@ -56,12 +71,14 @@ std::span<uint32_t> numbers_up_to(size_t count, Arena& arena) {
 LightRecords::AreaKernel::AreaKernel(LightRecords& all, const Making& making, size_t l)
     : light(*all.area_lights_.find(l)),
       at(making.at),
-      samples(making.grid, at.first, at.count, light.surface),
+      samples(making.grid, at.first, at.count, light.surfaces[0]),
+      sampler(light, at, making.grid.memory),
       lit(all.frame_, making.grid.memory, samples.hits,
           numbers_up_to(at.count, making.grid.memory.arena),
           all.frame_.shaders.shader_instances[all.frame_.lights.lights[l].look].get()),
       count(uint32_t(all.samples_of(l, all.bindings_.statements(l)[0], making.grid))),
       all_(all),
+      number_(l),
       arena_(making.grid.memory.arena) {
     Grid& grid = making.grid;
     all.kernels_.prepare(lit, grid.ray);
@@ -94,22 +111,60 @@ std::span<float*> LightRecords::AreaKernel::run() {
     for (uint16_t column : lit.look->full.columns)
         if (const float* row = of_point(column)) lit.columns[column] = const_cast<float*>(row);
     lit.memory.counters.light_points += at.count;
-    return all_.kernels_.run(lit.look->full, lit);
+    std::span<float*> out = all_.kernels_.run(lit.look->full, lit);
+    if (light.emits) put_emission(out);
+    return out;
 }
 
-std::span<float> LightRecords::AreaKernel::densities(const LightOutputs& statement,
-                                                     std::span<float* const> out) const {
-    constexpr float kMost = 1e30f;
+// In the place of Cl: radiance over pi times the density by area, and of that the samples' share.
+void LightRecords::AreaKernel::put_emission(std::span<float*> out) const {
+    const LightOutputs& statement = all_.bindings_.statements(number_)[0];
+    std::span<vec3> emission = arena_.allocate_span<vec3>(at.count);
+    find_emission(all_.frame_, all_.kernels_, lit, samples, at, emission);
+    const std::span<const float> density = by_area(statement, out);
+    for (size_t i = 0; i < padded(at.count); ++i) {
+        const size_t point = std::min(i, at.count - 1);
+        const bool even_in_area = samples.density[point] == LightSamples::kByArea;
+        const float share = even_in_area ? share_of_samples(density[i]) : 1.0f;
+        for (int k = 0; k < 3; ++k)
+            out[size_t(statement.Cl[k])][i] =
+                emission[point][k] * share / (float(kPi) * density[i]);
+    }
+}
+
+std::span<float> LightRecords::AreaKernel::by_area(const LightOutputs& statement,
+                                                   std::span<float* const> out) const {
     std::span<float> density = arena_.allocate_span<float>(padded(at.count));
-    const float area = light.has_area() ? light.below.back() : 0.0f;
     for (size_t i = 0; i < density.size(); ++i) {
         const size_t point = std::min(i, at.count - 1);
         const vec3 L(out[size_t(statement.L[0])][point], out[size_t(statement.L[1])][point],
                      out[size_t(statement.L[2])][point]);
         const vec3 Ng = lit.frame.camera_from_accel * triple(samples.hits.Ng, point);
-        const float square = glm::dot(L, L), length = std::sqrt(square);
-        const float across = std::abs(glm::dot(Ng, L)) * area;
-        density[i] = across > 0 ? std::min(square * length / across, kMost) : kMost;
+        density[i] = density_by_area(L, Ng, area_at(point));
+    }
+    return density;
+}
+
+std::span<float> LightRecords::AreaKernel::shares() const {
+    std::span<float> share = arena_.allocate_span<float>(padded(at.count));
+    for (size_t i = 0; i < share.size(); ++i) {
+        const size_t point = std::min(i, at.count - 1);
+        const float dense = samples.density[point];
+        share[i] = may_light(i) ? 1 / float(count) : 0.0f;
+        if (share[i] == 0 || dense == LightSamples::kByArea) continue;
+        const vec3 L = triple(samples.hits.P, point) - triple(at.accel, point);
+        const float even = density_by_area(L, triple(samples.hits.Ng, point), area_at(point));
+        share[i] = dense > 0 ? even / (dense * float(count)) : 0.0f;
+    }
+    return share;
+}
+
+std::span<float> LightRecords::AreaKernel::densities(const LightOutputs& statement,
+                                                     std::span<float* const> out) const {
+    std::span<float> density = by_area(statement, out);
+    for (size_t i = 0; i < density.size(); ++i) {
+        const float dense = samples.density[std::min(i, at.count - 1)];
+        density[i] = (dense == LightSamples::kByArea ? density[i] : dense) * float(count);
     }
     return density;
 }
@@ -148,16 +203,13 @@ void scale(const LightOutputs& statement, std::span<float* const> out, size_t po
 
 void LightRecords::area_record(Making& making, size_t l, AreaKernel& kernel,
                                const LightOutputs& own, std::span<float* const> out) const {
-    const size_t points = padded(making.at.count);
-    scale(own, out, points,
-          [&](size_t i) { return kernel.may_light(i) ? 1 / float(kernel.count) : 0.0f; });
+    const std::span<const float> shares = kernel.shares();
+    scale(own, out, padded(making.at.count), [&](size_t i) { return shares[i]; });
     LightOutputs statement = own;
     std::span<float* const> columns = out;
-    if (is_weighed(*making.grid.look, own)) {
-        std::span<float> density = kernel.densities(own, out);
-        for (float& dense : density) dense *= float(kernel.count);
-        columns = with_density(statement, out, density, making.grid.memory.arena);
-    }
+    if (is_weighed(*making.grid.look, own))
+        columns =
+            with_density(statement, out, kernel.densities(own, out), making.grid.memory.arena);
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     make_record(making, statement, binding, binding.messages, columns, true, &kernel.samples);
 }
@@ -165,10 +217,12 @@ void LightRecords::area_record(Making& making, size_t l, AreaKernel& kernel,
 void LightRecords::area_records(Making& making, size_t l) {
     AreaKernel kernel(*this, making, l);
     for (uint32_t k = 0; k < kernel.count; ++k) {
-        area_lights_.choose(kernel.lit, making.at, kernel.light, {k, kernel.count}, kernel.samples);
-        std::span<float*> out = kernel.run();
-        for (const LightOutputs& statement : bindings_.statements(l))
-            area_record(making, l, kernel, statement, out);
+        kernel.sampler.choose(kernel.lit, {k, kernel.count}, kernel.samples);
+        do {
+            std::span<float*> out = kernel.run();
+            for (const LightOutputs& statement : bindings_.statements(l))
+                area_record(making, l, kernel, statement, out);
+        } while (kernel.sampler.go_on(kernel.lit, kernel.samples));
     }
 }
 
@@ -213,7 +267,7 @@ void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
             raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskLamp, making.grid.depth + 1,
                             nested->hits, memory.counters.trace);
         for (size_t l = 0; l < frame_.lights.lights.size(); ++l)
-            if (area_lights_.find(l) && bindings_.binding(making.grid.look->index, l).seen)
+            if (area_lights_.find(l) && !is_dark(making.grid, l, {}))
                 lamp_along(making, l, call, rays, hits);
         for (size_t h = 0; h < hits.count; ++h)
             raytrace::pass_through(frame_.pose.accel, rays, h, hits, h);
@@ -225,10 +279,10 @@ void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
 
 void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& call,
                               const raytrace::RayBatch& rays, const raytrace::HitBatch& hits) {
-    const uint32_t surface = area_lights_.find(l)->surface;
-    const uint32_t only = frame_.insight.only_light;
-    if (std::count(hits.instance, hits.instance + hits.count, surface) == 0) return;
-    if (only != kNone && only != l) return;
+    const AreaLight& light = *area_lights_.find(l);
+    if (std::none_of(hits.instance, hits.instance + hits.count,
+                     [&](uint32_t surface) { return light.has(surface); }))
+        return;
     AreaKernel kernel(*this, making, l);
     LightSamples& samples = kernel.samples;
     std::fill(samples.primitive.begin(), samples.primitive.end(), 0u);
@@ -237,23 +291,23 @@ void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& 
     bool met[jit::kMaxLanes] = {};
     for (size_t h = 0; h < hits.count; ++h) {
         const uint32_t lane = rays.slot[hits.ray[h]];
-        if (hits.instance[h] != surface) continue;
+        if (!light.has(hits.instance[h])) continue;
         met[lane] = true;
+        samples.instance[lane] = hits.instance[h];
         samples.primitive[lane] = hits.primitive[h];
         samples.u[lane] = hits.u[h];
         samples.v[lane] = hits.v[h];
     }
-    frame_.pose.accel.surface_points(making.at.count, samples.instance.data(),
-                                     samples.primitive.data(), samples.u, samples.v,
-                                     samples.on_surface);
+    for (size_t i = 0; i < making.at.count; ++i) samples.density[i] = kernel.sampler.density(i);
+    samples.find_points(frame_.pose.accel);
     std::span<float*> out = kernel.run();
     for (const LightOutputs& own : bindings_.statements(l)) {
         if (!is_weighed(*making.grid.look, own)) continue;
-        std::span<float> density = kernel.densities(own, out);
+        const std::span<const float> by_area = kernel.by_area(own, out);
+        const std::span<float> density = kernel.densities(own, out);
         scale(own, out, padded(making.at.count), [&](size_t i) {
             if (i >= jit::kMaxLanes || !met[i] || !kernel.may_light(i)) return 0.0f;
-            const float radiance = float(kPi) * density[i];
-            density[i] *= float(kernel.count);
+            const float radiance = float(kPi) * by_area[i];
             return radiance * sample_weight(along_argument(call, kMaterialDensity)[i], density[i],
                                             along_argument(call, kHeuristic)[i]);
         });

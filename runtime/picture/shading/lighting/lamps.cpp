@@ -10,6 +10,7 @@
 
 #include "raytrace/hits.h"
 #include "runtime/picture/shading/kernel_runner.h"
+#include "runtime/picture/shading/lighting/emission.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/description/shader_library.h"
@@ -35,27 +36,6 @@ uint32_t surface_of(const Grid& grid, size_t point) {
     return grid.hits.instance[grid.points[point]];
 }
 
-// The columns of a light's kernel at hits of its mesh, lit: where their rays come from.
-void fill_light_columns(Grid& lit, const ShadingFrame& frame) {
-    auto is_lit = [](uint16_t c) { return c >= kColPs && c < kColNs + 3; };
-    auto is_sent = [](uint16_t c) { return c >= kColSentL && c < kColSentL + 3; };
-    for (uint16_t column : lit.look->full.columns)
-        if (!is_lit(column) && !is_sent(column)) want_columns(lit, {&column, 1});
-    gather(lit);
-    for (uint16_t column : lit.look->full.columns) {
-        if (!is_lit(column) && !is_sent(column)) continue;
-        float* const row = lit.memory.arena.allocate_span<float>(padded(lit.count())).data();
-        std::fill_n(row, padded(lit.count()), 0.0f);
-        lit.columns[column] = row;
-        for (size_t i = 0; is_lit(column) && i < lit.count(); ++i) {
-            const vec3 org = triple(lit.hits.org, lit.points[i]) - frame.eye;
-            const vec3 of_row = frame.camera_from_accel *
-                                (column < kColNs ? org : triple(lit.hits.dir, lit.points[i]));
-            row[i] = of_row[(column - kColPs) % 3];
-        }
-    }
-}
-
 // Cl d^2 / cos' of a statement of the grid's light at each hit.
 void find_exitance(const Grid& lit, const LightOutputs& statement, std::span<float* const> out,
                    std::span<vec3> exitance) {
@@ -77,6 +57,26 @@ void find_exitance(const Grid& lit, const LightOutputs& statement, std::span<flo
 
 }  // namespace
 
+void fill_light_columns(Grid& lit, const ShadingFrame& frame) {
+    auto is_lit = [](uint16_t c) { return c >= kColPs && c < kColNs + 3; };
+    auto is_sent = [](uint16_t c) { return c >= kColSentL && c < kColSentL + 3; };
+    for (uint16_t column : lit.look->full.columns)
+        if (!is_lit(column) && !is_sent(column)) want_columns(lit, {&column, 1});
+    gather(lit);
+    for (uint16_t column : lit.look->full.columns) {
+        if (!is_lit(column) && !is_sent(column)) continue;
+        float* const row = lit.memory.arena.allocate_span<float>(padded(lit.count())).data();
+        std::fill_n(row, padded(lit.count()), 0.0f);
+        lit.columns[column] = row;
+        for (size_t i = 0; is_lit(column) && i < lit.count(); ++i) {
+            const vec3 org = triple(lit.hits.org, lit.points[i]) - frame.eye;
+            const vec3 of_row = frame.camera_from_accel *
+                                (column < kColNs ? org : triple(lit.hits.dir, lit.points[i]));
+            row[i] = of_row[(column - kColPs) % 3];
+        }
+    }
+}
+
 static_assert(kColNs == kColPs + 3);
 
 Lamps::Lamps(ShadingFrame& frame, KernelRunner& kernels, const LightRecords& lights)
@@ -92,12 +92,14 @@ void Lamps::find_lamps() {
     made_.resize(looks.size());
     const rsl::Shader* const made = library_shader("area_emitter").get();
     for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
-        const uint32_t surface = frame_.lights.lights[l].surface;
-        if (surface == kNone || !lights_.bindings().directed(l)) continue;
-        of_surface_[surface].push_back(l);
-        const uint32_t look = frame_.shapes.surfaces[surface].look;
-        wears_[look] = true;
-        made_[look] = &looks[look]->shader() == made;
+        const AreaLight* const light = lights_.areas().find(l);
+        if (!light || !lights_.bindings().directed(l)) continue;
+        for (uint32_t surface : light->surfaces) {
+            of_surface_[surface].push_back(l);
+            const uint32_t look = frame_.shapes.surfaces[surface].look;
+            wears_[look] = true;
+            made_[look] = &looks[look]->shader() == made;
+        }
     }
 }
 
@@ -147,21 +149,36 @@ void Lamps::show(Grid& grid, raytrace::ShadeResult& result) {
     Arena& arena = grid.memory.arena;
     const Arena::Mark mark = arena.mark();
     std::span<vec3> radiance = arena.allocate_span<vec3>(grid.count());
+    std::span<float> shares = arena.allocate_span<float>(grid.count());
     std::fill(radiance.begin(), radiance.end(), vec3(0.0f));
-    find_radiance(grid, radiance);
-    if (!made_[look]) take_emission(grid, radiance, result);
+    std::fill(shares.begin(), shares.end(), 0.0f);
+    find_radiance(grid, radiance, shares);
+    if (!made_[look]) take_emission(grid, shares, result);
     for (size_t i = 0; made_[look] && i < grid.count(); ++i)
         for (int k = 0; k < 3; ++k)
             result.Ci[k][grid.points[i]] = is_counted(grid, i) ? 0.0f : radiance[i][k];
     arena.release(mark);
 }
 
-void Lamps::find_radiance(Grid& grid, std::span<vec3> radiance) {
-    const auto& lights = frame_.lights.lights;
-    for (size_t l = 0; l < lights.size(); ++l) {
-        if (lights[l].surface == kNone || !lights_.bindings().directed(l)) continue;
-        if (frame_.shapes.surfaces[lights[l].surface].look == grid.look->index)
-            add_radiance(grid, l, radiance);
+void Lamps::find_radiance(Grid& grid, std::span<vec3> radiance, std::span<float> shares) {
+    for (size_t l = 0; l < frame_.lights.lights.size(); ++l) {
+        const AreaLight* const light = lights_.areas().find(l);
+        if (!light || !lights_.bindings().directed(l)) continue;
+        auto wears_look = [&](uint32_t surface) {
+            return frame_.shapes.surfaces[surface].look == grid.look->index;
+        };
+        if (std::ranges::none_of(light->surfaces, wears_look)) continue;
+        light->emits ? add_shares(grid, *light, shares) : add_radiance(grid, l, radiance);
+    }
+    for (size_t i = 0; i < grid.count(); ++i)
+        if (radiance[i] != vec3(0.0f)) shares[i] = 1;
+}
+
+void Lamps::add_shares(const Grid& grid, const AreaLight& light, std::span<float> shares) const {
+    for (size_t i = 0; light.has_area() && i < grid.count(); ++i) {
+        const uint32_t hit = grid.points[i];
+        if (light.has(surface_of(grid, i)))
+            shares[i] = share_of_samples(light, triple(grid.hits.org, hit), grid.hits, hit);
     }
 }
 
@@ -172,7 +189,7 @@ void Lamps::add_radiance(Grid& grid, size_t light, std::span<vec3> radiance) {
     std::span<uint32_t> hits = arena.allocate_span<uint32_t>(grid.count());
     uint32_t count = 0;
     for (uint32_t i = 0; i < grid.count(); ++i)
-        if (surface_of(grid, i) == area.surface) {
+        if (area.has(surface_of(grid, i))) {
             which[count] = i;
             hits[count++] = grid.points[i];
         }
@@ -193,13 +210,17 @@ void Lamps::add_radiance(Grid& grid, size_t light, std::span<vec3> radiance) {
 }
 
 // What the kernel gives without lights and rays, where the lamp sends light to the ray's sender.
-void Lamps::take_emission(Grid& grid, std::span<const vec3> radiance,
+void Lamps::take_emission(Grid& grid, std::span<const float> shares,
                           raytrace::ShadeResult& result) {
     Arena& arena = grid.memory.arena;
     std::span<uint32_t> hits = arena.allocate_span<uint32_t>(grid.count());
+    std::span<float> share = arena.allocate_span<float>(grid.count());
     uint32_t count = 0;
-    for (uint32_t i = 0; i < grid.count(); ++i)
-        if (is_counted(grid, i) && radiance[i] != vec3(0.0f)) hits[count++] = grid.points[i];
+    for (uint32_t i = 0; i < grid.count(); ++i) {
+        if (!is_counted(grid, i) || shares[i] == 0) continue;
+        share[count] = shares[i];
+        hits[count++] = grid.points[i];
+    }
     if (count == 0) return;
     Grid dark(frame_, grid.memory, grid.hits, hits.first(count), grid.look);
     kernels_.prepare(dark, grid.ray);
@@ -210,7 +231,7 @@ void Lamps::take_emission(Grid& grid, std::span<const vec3> radiance,
     find_color(grid.look->full.kernel(), out, rsl::Global::Ci, Ci);
     for (int k = 0; k < 3; ++k)
         for (uint32_t i = 0; Ci[k] && i < count; ++i)
-            result.Ci[k][hits[i]] = std::max(0.0f, result.Ci[k][hits[i]] - Ci[k][i]);
+            result.Ci[k][hits[i]] = std::max(0.0f, result.Ci[k][hits[i]] - share[i] * Ci[k][i]);
 }
 
 }  // namespace kinora

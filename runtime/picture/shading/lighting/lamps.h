@@ -12,6 +12,10 @@ namespace kinora {
 
 class KernelRunner;
 class LightRecords;
+struct AreaLight;
+
+// Fills the columns of a light's kernel at hits of its mesh, lit: where their rays come from.
+void fill_light_columns(Grid& lit, const ShadingFrame& frame);
 
 class Lamps {
   public:
@@ -27,9 +31,11 @@ class Lamps {
     uint32_t number_of_set(std::vector<bool> surfaces, bool dome);
     bool is_counted(const Grid& grid, size_t point) const;
     // What lights send from each of the points to the origin of its ray, as a radiance.
-    void find_radiance(Grid& grid, std::span<vec3> radiance);
+    void find_radiance(Grid& grid, std::span<vec3> radiance, std::span<float> shares);
     void add_radiance(Grid& grid, size_t light, std::span<vec3> radiance);
-    void take_emission(Grid& grid, std::span<const vec3> radiance, raytrace::ShadeResult& result);
+    // How much of what the points emit their lights' samples have.
+    void add_shares(const Grid& grid, const AreaLight& light, std::span<float> shares) const;
+    void take_emission(Grid& grid, std::span<const float> shares, raytrace::ShadeResult& result);
 
     ShadingFrame& frame_;
     KernelRunner& kernels_;

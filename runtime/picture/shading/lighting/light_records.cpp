@@ -12,6 +12,8 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/columns/sixteen_points.h"
 #include "runtime/picture/lights/cone_samples.h"
+#include "runtime/picture/shading/lighting/emission.h"
+#include "runtime/picture/shading/lighting/lamp_probe.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/scene/description/findings.h"
 #include "runtime/scene/kernels/columns.h"
@@ -114,9 +116,10 @@ size_t LightRecords::samples_of(size_t light, const LightOutputs& statement,
         samples_at(grid.ray, int(asked_samples(light, statement, beside_indirect(grid)))));
 }
 
-void LightRecords::begin_frame(bool all) {
+void LightRecords::begin_frame(bool all, ThreadMemory& memory) {
     all_ = all;
     area_lights_.begin_frame();
+    choose_sampling(memory);
     reaches_.resize(frame_.lights.lights.size());
     for (size_t l = 0; l < reaches_.size(); ++l)
         if (all || bindings_.asked(l))
@@ -126,6 +129,19 @@ void LightRecords::begin_frame(bool all) {
         choice_.begin_frame(frame_.nodes, frame_.pose, all_lights_.present,
                             frame_.quality.light_choice);
     if (!choice_.groups().empty()) find_others();
+}
+
+void LightRecords::choose_sampling(ThreadMemory& memory) {
+    for (size_t l = 0; area_lights_.any() && l < frame_.lights.lights.size(); ++l) {
+        const AreaLight* light = area_lights_.find(l);
+        if (!light || !(all_ || bindings_.asked(l))) continue;
+        if (light->emits) {
+            find_powers(frame_, kernels_, memory, *light, powers_);
+            area_lights_.weigh(l, powers_);
+        }
+        area_lights_.sample_by_angle(
+            l, suits_by_angle(frame_, kernels_, memory, *light, l, bindings_.statements(l)));
+    }
 }
 
 // By the box of the whole scene, so that the grids need not ask of each light again.
@@ -270,6 +286,10 @@ void LightRecords::note_rays(Grid& grid, RayNotes& notes) {
 bool LightRecords::is_dark(const Grid& grid, size_t l, const Sphere& points) const {
     const uint32_t only = frame_.insight.only_light;
     const bool seen = bindings_.binding(grid.look->index, l).seen;
+    // Emission ends with the rays that would find it: it is the first bounce of indirect light.
+    if (const AreaLight* area = area_lights_.find(l);
+        area && area->emits && is_too_deep(row_of(RayKind::Indirect), grid))
+        return true;
     return (only != kNone && l != only) || !seen || !reaches(reaches_[l], points);
 }
 

@@ -35,7 +35,7 @@ class LightRecords {
   public:
     LightRecords(const ShadingFrame& frame, KernelRunner& kernels);
     // `all`: records of lights that reach no point are made too.
-    void begin_frame(bool all);
+    void begin_frame(bool all, ThreadMemory& memory);
     // Whether some loop of the scene's shaders asks for that one of Scene::lights.
     bool asked(size_t light) const { return bindings_.asked(light); }
 
@@ -74,6 +74,7 @@ class LightRecords {
     bool is_dark(const Grid& grid, size_t light, const Sphere& points) const;
     void make_records(Making& making, size_t light);
     void find_present();
+    void choose_sampling(ThreadMemory& memory);  // of lights on geometry
     void find_others();
     // Whether points of the look are lit by a few of many lights.
     bool chooses(const ShaderInstance& look) const;
@@ -134,6 +135,7 @@ class LightRecords {
     AreaLights area_lights_;
     LightChoice choice_;
     std::vector<LightReach> reaches_;  // of each light, in this frame
+    std::vector<float> powers_;        // of one light's triangles
     // Lights in their order.
     struct Lights {
         std::vector<size_t> every;

@@ -10,12 +10,13 @@ namespace {
 constexpr int kOfEach = 64;
 
 // Sums the density at the middles of cells about the lamp, which is in the plane z = 2 or, as a
-// sphere, within a cone. The cells fill twice the lamp's width, and none is cut by its edge.
+// sphere, within a cone. The cells fill twice the lamp's width, and none is cut by its edge; so
+// many that the angle of a rectangle is within 1e-4.
 //   shape 0: a rectangle; 1: a disc; 2: a sphere. The area of a cell by solid angle is its own
 // arithmetic: of the plane cosine / distance^2, of the cone even in the cosine.
 const char* const kIntegral = R"(
 surface integral(uniform float shape = 0, samples = 64, wide = 1, tall = 0.6, radius = 0.5;) {
-    uniform float steps = 32, i, j;
+    uniform float steps = 48, i, j;
     float sum = 0;
     point centre = point "world" (0, 0, 2);
     illuminance(P) { sum += 0 * Cl[0]; }

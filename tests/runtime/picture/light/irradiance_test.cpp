@@ -25,8 +25,7 @@ double sphere_at(dvec2 p) {
 }
 
 // Relative: each of 256 pixels, and their mean.
-void expect_shares(const SceneText& scene, const char* name, const Share& share,
-                   double tolerance = 1e-3) {
+void expect_shares(const SceneText& scene, const char* name, const Share& share) {
     SceneOptions options;
     options.quality.light_samples = kOfLamp;
     Rendering r(scene.text(), options);
@@ -39,7 +38,7 @@ void expect_shares(const SceneText& scene, const char* name, const Share& share,
         worst = std::max(worst, std::abs(is / be - 1));
         got += is, want += be;
     }
-    EXPECT_LE(worst, tolerance) << name;
+    EXPECT_LE(worst, 1e-3) << name;
     EXPECT_NEAR(got / want, 1, 1e-4) << name;
 }
 
@@ -66,30 +65,70 @@ TEST(LampIrradiance, OfGeometryIsTheClosedForm) {
     expect_shares(floor_under(disc_mesh()), "disc", disc_at);
 }
 
-// Over half of the samples lie on the far side, so a pixel has twice the tolerance.
-TEST(LampIrradiance, OfASphereOnGeometryIsTheSumOverItsFacets) {
-    const LampMesh mesh = sphere_mesh(24, 48);
-    const Share facets = [&](dvec2 p) {
+// What a sphere's facets send to a place of the floor, from their fronts, their backs or both.
+Share of_facets(const LampMesh& mesh, bool fronts, bool backs) {
+    return [=](dvec2 p) {
         double sum = 0;
         for (size_t t = 0; t < mesh.positions.size(); t += 3) {
             const dvec3 at(p, -kLampHeight);
-            if (glm::dot(at - mesh.positions[t], mesh.normals[t]) > 0)
-                sum += polygon_share(at, std::span(mesh.positions).subspan(t, 3));
+            const bool is_front = glm::dot(at - mesh.positions[t], mesh.normals[t]) > 0;
+            const double share = polygon_share(at, std::span(mesh.positions).subspan(t, 3));
+            if (is_front ? fronts : backs) sum += is_front ? share : -share;
         }
         return sum;
     };
-    expect_shares(floor_under(mesh), "facets", facets, 2e-3);
 }
 
-// By area it would be 4.9, a point seen edge-on being as likely as one that faces the floor.
-TEST(LampIrradiance, OneSampleOfASphereByItsConeHardlyVaries) {
+// Directions between the facets and the sphere about them meet nothing: .1 % of all.
+TEST(LampIrradiance, OfASphereOnGeometryIsTheSumOverItsFacets) {
+    const LampMesh mesh = sphere_mesh(48, 96);
+    expect_shares(floor_under(mesh), "facets", of_facets(mesh, true, false));
+}
+
+// A lamp that shines to both sides, whose front lets the light of its back through.
+TEST(LampIrradiance, OfATransparentSphereIsThatOfBothItsSides) {
+    const LampMesh mesh = sphere_mesh(48, 96);
     SceneText scene = floor_scene(kMatte);
+    look_from_below(scene, 1.5);
+    scene.look("lamp-look",
+               fmt::format("light lamp() {{ illuminate(P)"
+                           " Cl = {} / PI * abs(normalize(L) . normalize(N)) / (L . L); }}"
+                           "surface clear() {{ Oi = 0; Ci = 0; }}",
+                           mesh.area),
+               "<shader stage=\"LIGHT\"><name>lamp</name></shader>"
+               "<shader stage=\"SURFACE\"><name>clear</name></shader>");
+    scene.mesh("lamp", mesh.positions, mesh.triangles, mesh.normals);
+    scene.place("lamp", "lamp-look", fmt::format("<translate>0 0 {}</translate>", kLampHeight));
+    expect_shares(scene, "both sides", of_facets(mesh, true, true));
+}
+
+// One sample of a lamp that sends the same from all of its points is exact by area alone.
+TEST(LampIrradiance, OfAShaderThatIsNoLampOfOneRadianceIsSampledByArea) {
+    for (const LampMesh& mesh : {rectangle_mesh(), sphere_mesh(8, 16)}) {
+        SceneText scene =
+            floor_scene("surface sums() { Oi = 1; Ci = 0; illuminance(P) Ci += Cl; }");
+        look_from_below(scene, 1.5);
+        scene.look("lamp-look", "light lamp() { illuminate(P) Cl = 1; }",
+                   "<shader stage=\"LIGHT\"/>");
+        scene.mesh("lamp", mesh.positions, mesh.triangles, mesh.normals);
+        scene.place("lamp", "lamp-look", "<translate>0 0 2</translate>");
+        SceneOptions options;
+        options.quality.light_samples = 1;
+        options.quality.shadows = ShadowMode::Off;
+        Rendering r(scene.text(), options);
+        r.frame(16, 16);
+        for (int k = 0; k < 256; ++k) ASSERT_EQ(r.color(k % 16, k / 16).x, 1);
+    }
+}
+
+// Of a picture of a point below a lamp: of one sample, relative.
+double variance_below(SceneText scene) {
     scene.cameras = R"(<camera id="eye"><optics><technique_common><orthographic>
         <xmag>.001</xmag><ymag>.001</ymag><znear>0.1</znear><zfar>100</zfar>
         </orthographic></technique_common></optics></camera>)";
-    scene.rsl_light("lamp", kSphereClass, "<translate>0 0 1</translate>",
-                    bound_number("samples", 1));
-    Rendering r(scene.text());
+    SceneOptions options;
+    options.quality.light_samples = 1;
+    Rendering r(scene.text(), options);
     r.frame(64, 64);
     EXPECT_EQ(r.findings(), "");
     double sum = 0, squares = 0;
@@ -98,11 +137,26 @@ TEST(LampIrradiance, OneSampleOfASphereByItsConeHardlyVaries) {
         const double c = double(r.color(k % 64, k / 64).x);
         sum += c / kPixels, squares += c * c / kPixels;
     }
-    EXPECT_LE(squares / (sum * sum) - 1, 1e-3);
+    return squares / (sum * sum) - 1;
+}
+
+// By area it would be 4.9, a point seen edge-on being as likely as one that faces the floor.
+TEST(LampIrradiance, OneSampleOfASphereByItsConeHardlyVaries) {
     // The cosine is even between sqrt(1 - r^2) and 1: its variance is a twelfth of the square.
     const double least = std::sqrt(1 - kSphereRadius * kSphereRadius), mean = (1 + least) / 2;
     const double expected = (1 - least) * (1 - least) / (12 * mean * mean);
-    EXPECT_NEAR((squares / (sum * sum) - 1) / expected, 1, 0.1);
+    SceneText of_class = floor_scene(kMatte);
+    of_class.rsl_light("lamp", kSphereClass, "<translate>0 0 1</translate>",
+                       bound_number("samples", 1));
+    const double by_class = variance_below(of_class);
+    EXPECT_LE(by_class, 1e-3);
+    EXPECT_NEAR(by_class / expected, 1, 0.1);
+    SceneText on_geometry = floor_scene(kMatte);
+    look_from_below(on_geometry, 0.5);
+    add_lamp(on_geometry, sphere_mesh(128, 256), 1, 1);
+    const double by_geometry = variance_below(on_geometry);
+    EXPECT_LE(by_geometry, 1e-3);
+    EXPECT_GE(by_geometry / expected, 0.9);  // and some directions miss the facets
 }
 
 }  // namespace

@@ -197,10 +197,11 @@ inline LampMesh sphere_mesh(int rings, int sectors) {
 }
 
 // Its middle is that high above the origin.
-inline void add_lamp(SceneText& scene, const LampMesh& mesh, double radiance = 1) {
+inline void add_lamp(SceneText& scene, const LampMesh& mesh, double radiance = 1,
+                     double height = kLampHeight) {
     scene.look("lamp-look", geometry_lamp(mesh.area, radiance), "<shader stage=\"LIGHT\"/>");
     scene.mesh("lamp", mesh.positions, mesh.triangles, mesh.normals);
-    scene.place("lamp", "lamp-look", fmt::format("<translate>0 0 {}</translate>", kLampHeight));
+    scene.place("lamp", "lamp-look", fmt::format("<translate>0 0 {}</translate>", height));
 }
 
 // The camera stands below the lamps and sees the floor as it does from 10.
