@@ -256,7 +256,7 @@ void LightRecords::note_rays(Grid& grid, RayNotes& notes) {
     kernels_.run_noting(grid, [&] {
         for (size_t l : sending_) {
             if (is_dark(grid, l, lit)) continue;
-            LitGrid of_light(frame_, making, l);
+            LitGrid of_light(making, l);
             prepare(making, l, of_light, nullptr);
             kernels_.run_in_the_dark(of_light);
         }
@@ -334,10 +334,10 @@ void LightRecords::shadow_sample(const Making& making, const SentLight& sent) co
     if (sent.casts) grid.shadows->cast(grid, making.at, sent);
 }
 
-LightRecords::LitGrid::LitGrid(const ShadingFrame& frame, const Making& making, size_t light)
-    : Grid(frame, making.grid.memory, making.grid.hits,
+LightRecords::LitGrid::LitGrid(const Making& making, size_t light)
+    : Grid(making.grid.frame, making.grid.memory, making.grid.hits,
            making.grid.points.subspan(making.at.first, making.at.count),
-           &look_of_light(frame, light)) {}
+           &look_of_light(making.grid.frame, light)) {}
 
 void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswer* answer) const {
     Grid& grid = making.grid;
@@ -377,7 +377,7 @@ void LightRecords::make_records(Making& making, size_t l) {
 }
 
 void LightRecords::plain_records(Making& making, size_t l) {
-    LitGrid lit(frame_, making, l);
+    LitGrid lit(making, l);
     std::span<float*> out = run_kernel(making, l, lit, nullptr);
     const LightBinding& binding = bindings_.binding(making.grid.look->index, l);
     for (const LightOutputs& statement : bindings_.statements(l))

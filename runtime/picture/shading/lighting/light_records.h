@@ -79,7 +79,7 @@ class LightRecords {
     void chosen_records(Making& making, const LampGroup& group);
     // All that a light's kernel reads, and its run.
     struct LitGrid : Grid {  // the lit points, for the light's kernel
-        LitGrid(const ShadingFrame& frame, const Making& making, size_t light);
+        LitGrid(const Making& making, size_t light);
     };
     void prepare(const Making& making, size_t light, Grid& lit, LightAnswer* answer) const;
     std::span<float*> run_kernel(const Making& making, size_t light, Grid& lit,

@@ -85,7 +85,7 @@ void LightRecords::sampled_records(Making& making, size_t l) {
     LightQuestion question;
     question.domain = domain_of(*making.grid.look);
     LightAnswer answer(question, making.at.count, arena);
-    LitGrid lit(frame_, making, l);
+    LitGrid lit(making, l);
     std::span<float*> out = run_kernel(making, l, lit, &answer);
     keep_counts(making, l, answer.counts());
     for (const LightSampleRows* rows = answer.first(); rows; rows = rows->next)
@@ -140,7 +140,7 @@ void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall
     for (int k = 0; k < 3; ++k) question.along[k] = along_argument(call, kAlong + k);
     const size_t count = making.at.count, points = padded(count);
     LightAnswer answer(question, count, grid.memory.arena);
-    LitGrid lit(frame_, making, l);
+    LitGrid lit(making, l);
     std::span<float*> out = run_kernel(making, l, lit, &answer);
     if (!answer.first()) return;
     const float* samples = grid.sample_counts.empty() ? nullptr : grid.sample_counts[l];
