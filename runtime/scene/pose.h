@@ -13,7 +13,7 @@
 
 #include "raytrace/accel.h"
 #include "raytrace/camera.h"
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 #include "runtime/scene/description/scene_description.h"
 #include "skin/dual_quaternion.h"
 #include "skin/skin.h"

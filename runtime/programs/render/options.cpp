@@ -178,7 +178,11 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("--imager", o.imager, "FILE.sl, the name of one of ours, or none");
     app.add_option("--atmosphere", o.atmosphere,
                    "a volume: FILE.sl, the name of one of ours, or none");
-    add_list(app, "--aov", o.aovs, "output parameters of surfaces: channels of the EXR", ',');
+    add_list(
+        app, "--aov", o.aovs,
+        "NAME or NAME:FILTER: channels of the EXR: P, N, Z, ..., output parameters of surfaces, "
+        "or all; --list aovs shows them",
+        ',');
     add_choice<UpAxis>(app, "--up", o.up_axis,
                        {{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}},
                        "X, Y or Z instead of the file's up axis");

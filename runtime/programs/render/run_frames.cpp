@@ -8,6 +8,7 @@
 
 #include "runtime/base/files/temporary_file.h"
 #include "runtime/base/parallel.h"
+#include "runtime/kinora/aov_texts.h"
 #include "runtime/programs/common/exit_codes.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/stop_signal.h"
@@ -50,7 +51,7 @@ std::vector<DisplayFile> Render::displays_of(const std::string& picture) const {
     if (world_) numbered.stems = world_->shared_stems;
     std::vector<DisplayFile> files = displays_beside(picture, own->displays, numbered);
     auto is_there = [&](const std::string& output) {
-        return std::ranges::count(scene_.scene().outputs, output, &OutputPlane::parameter) > 0;
+        return std::ranges::count(scene_.scene().outputs, output, &OutputPlane::layer) > 0;
     };
     std::erase_if(files,
                   [&](const DisplayFile& file) { return !has_outputs(file.display, is_there); });
@@ -73,6 +74,14 @@ bool Render::keep_existing(const std::string& file, const std::string& print) {
     std::optional<Image8> image = read_image(file, encoding_of(options_));
     if (image) sheet_.add(*image);
     return image.has_value();
+}
+
+// With the checksum last, which a picture that lacks an asset goes without.
+ImageTexts Render::header_texts(const std::string& print) const {
+    ImageTexts texts{{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}};
+    for (auto& text : aov_texts(scene_.scene())) texts.push_back(std::move(text));
+    texts.emplace_back(kChecksumText, "");
+    return texts;
 }
 
 int Render::one_frame(int64_t frame, double time, size_t index) {
@@ -108,9 +117,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
                           .file = record.file,
                           .color = encoding_of(options_),
                           .depth = options_.quality.depth,
-                          .texts = {{"Software", "kinora " KINORA_VERSION},
-                                    {"kinora/fingerprint", print},
-                                    {kChecksumText, ""}},
+                          .texts = header_texts(print),
                           .film = {},
                           .displays = displays,
                           .exposed = exposure_of_file()};
