@@ -1,13 +1,7 @@
 // runtime/scene/scene_options.cpp: the settings as the libraries below take them.
 #include "runtime/scene/scene_options.h"
 
-#include "runtime/scene/description/play_range.h"
-
 namespace kinora {
-
-double frames_per_second(const SceneOptions& options, const SceneDescription& description) {
-    return options.frame_rate > 0 ? options.frame_rate : play_range(description).rate;
-}
 
 raytrace::AccelPolicy accel_policy(const SceneOptions& options) {
     return {.robust = options.quality.robust,

@@ -63,9 +63,6 @@ struct SceneOptions {
     PrintTo print;
 };
 
-// The options' frames a second, else the file's.
-double frames_per_second(const SceneOptions& options, const SceneDescription& description);
-
 // The settings as the ray tracer and the sampler take them.
 raytrace::AccelPolicy accel_policy(const SceneOptions& options);
 anim::KeyOptions key_options(const Quality& quality);

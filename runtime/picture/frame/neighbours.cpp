@@ -4,6 +4,7 @@
 #include "runtime/picture/frame/neighbours_p.h"
 #include "runtime/picture/frame/planes_p.h"
 #include "runtime/scene/camera.h"
+#include "runtime/scene/names.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/transforms.h"
 #include "runtime/scene/values.h"
@@ -40,7 +41,7 @@ void pose_neighbours(const Scene& scene, Pose& pose, double time, const FrameSet
     if (!has_plane_of(scene, AovSource::Motion)) return;
     if (!pose.neighbours) pose.neighbours = std::make_shared<NeighbourPoses>(scene);
     NeighbourPoses& beside = *pose.neighbours;
-    const double frame = 1 / frames_per_second(scene.options, *scene.description);
+    const double frame = 1 / frames_per_second(scene);
     beside.before.camera = beside.after.camera = pose.camera;
     beside.before_seen = stand(scene, beside.before, time - frame, settings);
     beside.after_seen = stand(scene, beside.after, time + frame, settings);

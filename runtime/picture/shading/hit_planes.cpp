@@ -50,14 +50,15 @@ struct Row {
 constexpr Row kRows[] = {
     {AovSource::Distance, [](const ShadingFrame&, const raytrace::HitBatch& hits, size_t k,
                              uint32_t) { return hits.t[k]; }},
-    {AovSource::Surface, [](const ShadingFrame&, const raytrace::HitBatch& hits,
-                            size_t k) { return float(hits.geometry[k] + 1); }},
+    {AovSource::Surface, [](const ShadingFrame&, const raytrace::HitBatch& hits, size_t k,
+                            uint32_t) { return float(hits.geometry[k] + 1); }},
     {AovSource::Object,
      [](const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k, uint32_t) {
          return float(object_id(frame.shapes, surface_of(frame, hits, k)));
      }},
-    {AovSource::Material, [](const ShadingFrame& frame, const raytrace::HitBatch& hits,
-                             size_t k) { return float(material_id(surface_of(frame, hits, k))); }},
+    {AovSource::Material, [](const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k,
+                             uint32_t) { return float(material_id(surface_of(frame, hits, k))); }},
+    {AovSource::Motion, motion_at},
 };
 
 }  // namespace
