@@ -27,8 +27,8 @@ void Film::hold_band(int w, int first, int rows) {
     is_band = true;
 }
 
-void Film::add_aov(std::string name, AovFilter filter) {
-    aovs.push_back({std::move(name), filter, std::vector<float>(rgba.size())});
+AovPlane& Film::add_aov(std::string name, AovFilter filter) {
+    return aovs.emplace_back(AovPlane{std::move(name), filter, std::vector<float>(rgba.size())});
 }
 
 void Film::clear() {

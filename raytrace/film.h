@@ -16,20 +16,37 @@ struct FilterTable;  // raytrace/pixels/pixels.h
 // What a non-finite shader result becomes.
 enum class NanPolicy : uint8_t { Zero, Magenta, Keep };
 
+// What a pixel keeps of its samples' numbers.
 enum class AovFilter : uint8_t {
-    Mean,         // mean over the pixel's samples; a sample that misses counts 0
-    FirstSample,  // the value of the pixel's first sample: for ids
-    Least,        // the least of the pixel's samples, kNoDepth where all miss: for depths
+    Mean,     // mean over the pixel's samples; a sample that misses counts 0 ("premultiplied")
+    Average,  // plain mean of the samples that hit
+    Nearest,  // of the sample nearest to the pixel's centre, hit or not: for places and ids
+    Least,    // the least of the samples that hit: for depths
+    Most,     // the largest of the samples that hit
 };
 inline constexpr float kNoDepth = 1e38f;  // RI_INFINITY
+
+// Who fills a plane.
+enum class AovOrigin : uint8_t {
+    Surface,   // SurfaceShading::shade
+    Samples,   // the integrator: how many samples the pixel has
+    Variance,  // the integrator: of the samples' colours, unbiased; 0 with one sample
+    Other,     // the caller, when the film is done
+};
 
 // One float component of one AOV of the nearest surface whose Oi is not 0: "z", "N.x". A colour is
 // three planes.
 struct AovPlane {
     std::string name;
     AovFilter filter = AovFilter::Mean;
-    std::vector<float> values;  // width * height, rows from the top
+    std::vector<float> values = {};  // width * height, rows from the top
     bool in_file = true;        // false: for imagers and displays
+    float background = 0;       // where the filter has no sample; Mean: always 0
+    AovOrigin origin = AovOrigin::Surface;
+    int component = 0;   // of the colour that a variance is of
+    std::string layer;   // the AOV that it is a channel of; "": one of its own
+    bool half = false;   // in a file
+    bool exact = false;  // not a digit may go in a file
 };
 
 // Linear, associated ("premultiplied") RGBA: alpha is coverage, the mean of Oi's components.
@@ -47,7 +64,7 @@ struct Film {
     void resize(int w, int h);  // and clear: of a whole picture
     // The rows from `first` on of a picture, cleared. Pictures too large for memory are made so.
     void hold_band(int w, int first, int rows);
-    void add_aov(std::string name, AovFilter filter = AovFilter::Mean);
+    AovPlane& add_aov(std::string name, AovFilter filter = AovFilter::Mean);
     void clear();  // all to 0; keeps memory and AOVs
     vec4& at(int x, int y) { return rgba[size_t(y) * size_t(width) + size_t(x)]; }
     const vec4& at(int x, int y) const { return rgba[size_t(y) * size_t(width) + size_t(x)]; }

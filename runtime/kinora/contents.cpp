@@ -6,6 +6,7 @@
 #include <set>
 
 #include "runtime/scene/description/shader_library.h"
+#include "runtime/scene/names.h"
 #include "runtime/scene/scene.h"
 #include "runtime/scene/shaders/shader_instance.h"
 
@@ -13,15 +14,12 @@ namespace kinora {
 
 namespace {
 
-const std::string& shown(const std::string& id, const std::string& name) {
-    return id.empty() ? name : id;
-}
-
-std::string node_path(const SceneNodes& scene, uint32_t node) {
+// Ids or names of a node and those above it; "" where a node has none.
+std::string path_of_names(const SceneNodes& scene, uint32_t node) {
     std::string path;
     for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
         const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
-        path = shown(step.id, step.name) + (path.empty() ? "" : "/" + path);
+        path = shown_name(step.id, step.name) + (path.empty() ? "" : "/" + path);
     }
     return path;
 }
@@ -42,8 +40,8 @@ std::vector<ListedCamera> listed_cameras(const Scene& scene) {
     std::vector<ListedCamera> list;
     for (size_t c = 0; c < scene.cameras.size(); ++c) {
         const CameraDefinition& camera = scene.description->cameras[scene.cameras[c].definition];
-        list.push_back({scene.cameras[c].name, shown(camera.id, camera.name),
-                        node_path(scene, scene.cameras[c].node), camera.orthographic,
+        list.push_back({scene.cameras[c].name, shown_name(camera.id, camera.name),
+                        path_of_names(scene, scene.cameras[c].node), camera.orthographic,
                         c == scene.start.camera});
     }
     return list;
@@ -110,9 +108,9 @@ std::vector<ListedParameter> listed_parameters(const Scene& scene) {
     for (const MaterialDefinition& m : description.materials)
         for (const auto* layers : {&m.transformations, &m.displacements, &m.surfaces, &m.interior,
                                    &m.exterior, &m.lights})
-            for (const ShaderUse& use : *layers) add(shown(m.id, m.name), use);
+            for (const ShaderUse& use : *layers) add(shown_name(m.id, m.name), use);
     for (const LightDefinition& light : description.lights)
-        add(shown(light.id, light.name), light.shader);
+        add(shown_name(light.id, light.name), light.shader);
     auto of_picture = [&](const PictureShaders& picture) {
         for (const auto* stack : {&picture.atmosphere, &picture.imagers})
             for (const ShaderUse& use : *stack) add(std::string(use.shader->name), use);
@@ -149,7 +147,7 @@ std::vector<ListedLight> listed_lights(const Scene& scene) {
     for (const LightSource& source : scene.lights) {
         const LightDefinition& light = scene.description->lights[source.definition];
         const NodeDefinition& node = scene.description->nodes[scene.nodes[source.node].definition];
-        list.push_back({shown(light.id, light.name), shown(node.id, node.name),
+        list.push_back({shown_name(light.id, light.name), shown_name(node.id, node.name),
                         std::string(light.shader.shader->name), source.surface != kNone});
     }
     return list;
@@ -160,7 +158,7 @@ std::vector<ListedNode> listed_nodes(const Scene& scene) {
     std::vector<ListedNode> list;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         const NodeDefinition& node = description.nodes[scene.nodes[n].definition];
-        ListedNode listed{node_path(scene, n),
+        ListedNode listed{path_of_names(scene, n),
                           node.id,
                           node.name,
                           {},
@@ -169,12 +167,14 @@ std::vector<ListedNode> listed_nodes(const Scene& scene) {
                           scene.nodes[n].hidden || !scene.nodes[n].chosen};
         for (const MeshUse& use : node.meshes) {
             const MeshDefinition& mesh = description.meshes[use.mesh];
-            listed.meshes.push_back(shown(mesh.id, mesh.name));
+            listed.meshes.push_back(shown_name(mesh.id, mesh.name));
         }
         for (uint32_t l : node.lights)
-            listed.lights.push_back(shown(description.lights[l].id, description.lights[l].name));
+            listed.lights.push_back(
+                shown_name(description.lights[l].id, description.lights[l].name));
         for (uint32_t c : node.cameras)
-            listed.cameras.push_back(shown(description.cameras[c].id, description.cameras[c].name));
+            listed.cameras.push_back(
+                shown_name(description.cameras[c].id, description.cameras[c].name));
         if (listed.meshes.empty() && listed.lights.empty() && listed.cameras.empty()) continue;
         list.push_back(std::move(listed));
     }

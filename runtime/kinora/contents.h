@@ -53,7 +53,7 @@ std::vector<ListedShader> listed_library_shaders();
 // What SceneRequest::params takes: NAME.PARAMETER of the materials, lights, atmospheres and
 // imagers, those of added lights too.
 std::vector<ListedParameter> listed_parameters(const Scene& scene);
-// What SceneRequest::aovs takes: output parameters of surfaces.
+// What SceneRequest::aovs takes: output parameters of surfaces, beside aov_rows().
 std::vector<ListedParameter> listed_aovs(const Scene& scene);
 
 struct ListedLight {

@@ -12,10 +12,10 @@ namespace kinora {
 namespace {
 
 const FindingInfo* const kOfTheRequest[] = {
-    &Code::CAMERA_UNKNOWN,       &Code::MATERIAL_UNKNOWN, &Code::SHADER_UNKNOWN,
-    &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN,    &Code::PARAM_VALUE,
-    &Code::NODE_UNKNOWN,         &Code::AOV_UNKNOWN,      &Code::CAMERA_PARALLEL,
-    &Code::ENVIRONMENT_SHADER,
+    &Code::CAMERA_UNKNOWN,       &Code::MATERIAL_UNKNOWN,   &Code::SHADER_UNKNOWN,
+    &Code::SHADER_OF_OTHER_KIND, &Code::PARAM_UNKNOWN,      &Code::PARAM_VALUE,
+    &Code::NODE_UNKNOWN,         &Code::AOV_UNKNOWN,        &Code::CAMERA_PARALLEL,
+    &Code::ENVIRONMENT_SHADER,   &Code::AOV_FILTER_UNKNOWN,
 };
 
 }  // namespace

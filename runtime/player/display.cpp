@@ -33,7 +33,7 @@ raytrace::Film film_of(int width, int height, F&& value) {
 std::string base_of(const std::string& plane) {
     size_t dot = plane.rfind('.');
     bool letter = dot != plane.npos && dot + 2 == plane.size() &&
-                  std::string_view("RGBXYZ").find(plane[dot + 1]) != std::string_view::npos;
+                  std::string_view("RGBXYZuvst").find(plane[dot + 1]) != std::string_view::npos;
     return !letter ? plane : plane.substr(0, dot);
 }
 
@@ -53,7 +53,7 @@ struct Range {
 Range range_of(const std::vector<float>& numbers) {
     Range range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
     for (float v : numbers) {
-        if (!std::isfinite(v)) continue;
+        if (!std::isfinite(v) || v >= raytrace::kNoDepth) continue;
         range.low = std::min(range.low, v);
         range.high = std::max(range.high, v);
     }
@@ -115,9 +115,10 @@ raytrace::Film of_costs(const raytrace::Film& film, const PixelCosts& costs,
 raytrace::Film of_aov(const raytrace::Film& film, const DisplaySettings& settings) {
     auto planes = planes_of(film, settings.aov);
     if (planes.empty()) return raytrace::Film(film.width, film.height);
-    if (planes.size() < 3) return of_numbers(film, planes[0]->values, settings.false_color);
+    if (planes.size() < 2) return of_numbers(film, planes[0]->values, settings.false_color);
     return film_of(film.width, film.height, [&](size_t k) {
-        vec3 c(planes[0]->values[k], planes[1]->values[k], planes[2]->values[k]);
+        vec3 c(planes[0]->values[k], planes[1]->values[k], 0);
+        if (planes.size() > 2) c.z = planes[2]->values[k];
         return vec4(settings.false_color ? false_color(luminance(c)) : c, 1.0f);
     });
 }
@@ -193,6 +194,7 @@ std::vector<std::string> shown_names(const std::vector<raytrace::AovPlane>& plan
     std::vector<std::string> names{""};
     for (const raytrace::AovPlane& plane : planes) {
         std::string name = base_of(plane.name);
+        if (shows_guide(name) || shows_costs(name)) continue;  // those of below show the same
         if (plane.in_file && std::find(names.begin(), names.end(), name) == names.end())
             names.push_back(name);
     }

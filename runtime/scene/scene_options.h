@@ -50,7 +50,7 @@ struct SceneOptions {
     bool background_rebuilds = true;  // of the ray tracer's trees; false: within a frame
     double low_limit = 3;             // raytrace::AccelPolicy::low_limit
     bool decode_textures = true;      // 8-bit colours from sRGB; false: --color legacy
-    std::vector<std::string> aovs;    // outputs of surfaces that the picture keeps
+    std::vector<std::string> aovs;    // that the picture keeps: runtime/scene/aovs
     bool displays = false;            // those that the file's displays show, too
     double frame_rate = 0;            // frames a second that option("Frame") counts; 0: the file's
     // Range played, seconds: what added cameras frame, and its views tell how fine to dice.

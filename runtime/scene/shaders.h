@@ -6,20 +6,26 @@
 #include <string>
 #include <vector>
 
+#include "runtime/scene/aovs/aovs.h"
 #include "runtime/scene/description/scene_description.h"
 
 namespace kinora {
 
 struct ShaderInstance;  // runtime/scene/shaders/shader_instance.h
 
-// A plane of the film: one component of an output parameter of surfaces.
+// A plane of the film: one component of an AOV, which is an output of surfaces or built in.
 struct OutputPlane {
-    std::string name;       // as the film has it: "glow.R", "dirt", "lamps.2.R"
-    std::string parameter;  // "glow"
+    std::string name;       // as the film has it: "glow.R", "dirt", "lamps.2.R", "uv.u"
+    std::string layer;      // the AOV: "glow", "uv"
+    std::string parameter;  // the kernel's output: "glow", "u"; "": no kernel fills it
     uint32_t component = 0;
     int element = -1;     // of an array; -1: it is none
     bool in_file = true;  // false: only an imager or a display reads it
-    bool depth = false;   // the nearest sample's counts, not the mean
+    AovSource source = AovSource::Kernel;
+    raytrace::AovFilter filter = raytrace::AovFilter::Mean;
+    float background = 0;
+    bool half = false;   // in a file
+    bool exact = false;  // not a digit may go in a file
 };
 
 struct SceneShaders {

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 #include "runtime/base/parallel.h"
 #include "tests/raytrace/meshes.h"
 

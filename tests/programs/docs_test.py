@@ -8,7 +8,7 @@ import sys
 from programs import BIN, SOURCE, ProgramTest, Result, main, shade
 
 SCRIPT = "scripts/docs"
-PAGES = ("docs/builtins.md", "docs/language.md", "docs/trade.md", "docs/play.md", "docs/promises.md")
+PAGES = ("docs/builtins.md", "docs/language.md", "docs/render.md", "docs/trade.md", "docs/play.md", "docs/promises.md")
 
 
 def docs(root, *words):
@@ -36,6 +36,8 @@ class Pages(ProgramTest):
             current = path.read_text()
             changed = re.sub(r"\| color \|", "| colour |", current.replace("Absolute value", "Value").replace("| draft |", "| rough |")
                              .replace("fill color", "filling").replace("| `orbit right up`", "| `orbit`"))
+            if page == "docs/render.md":  # presets stand in it by hand
+                changed = current.replace("| number of the node |", "| of the node |")
             self.assertNotEqual(changed, current)
             path.write_text(changed)
             self.expect(docs(self.folder, "--check"), 1, f"{page} is not what the tables say; run scripts/docs")

@@ -71,7 +71,7 @@ class Newcomer(ProgramTest):
             self.assertNotIn("warning:", result.err)
 
     def test_an_empty_list_says_so(self):
-        self.expect(render(MATTE, "--lights", "scene", "--list", "aovs"), 0, "no aovs")
+        self.expect(render(MATTE, "--lights", "scene", "--list", "lights"), 0, "no lights")
         self.expect(render(MATTE, "-o", self.picture("a.exr"), "--aov", "glow", *SMALL), 2, "'glow'", "output varying")
 
     def test_what_a_conversion_could_not_read_is_lost(self):

@@ -1,7 +1,7 @@
 // tests/raytrace/allocation_test.cpp: after the first frame of a size, a frame allocates nothing.
 #include <gtest/gtest.h>
 
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 #include "tests/anim/allocation_count.h"
 #include "tests/raytrace/meshes.h"
 

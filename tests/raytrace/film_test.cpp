@@ -87,7 +87,7 @@ TEST(Sampling, SeedsGiveUnrelatedPointsWhoseMeanIsTheMiddle) {
 
 TEST(Film, ResizingClearsAndKeepsTheAovs) {
     Film film(4, 3);
-    film.add_aov("z", AovFilter::FirstSample);
+    film.add_aov("z", AovFilter::Nearest);
     film.at(1, 2) = vec4(1.0f);
     film.aovs[0].values[11] = 5;
     film.resize(2, 2);

@@ -1,5 +1,5 @@
 // tests/raytrace/integrator_test.cpp: whole pictures with looks simple enough to know the answer.
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 
 #include <gtest/gtest.h>
 

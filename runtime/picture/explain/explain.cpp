@@ -33,6 +33,19 @@ void explain_added(const Scene& scene, const Pose&, ExplainedRows& rows) {
     for (const std::string& name : scene.added) rows.add(name, "added", "the file has none in use");
 }
 
+void explain_aovs(const Scene& scene, const Pose&, ExplainedRows& rows) {
+    std::string_view last;
+    for (const OutputPlane& plane : scene.outputs) {
+        if (!plane.in_file || plane.layer == last) continue;
+        last = plane.layer;
+        const AovRow* row = find_aov_row(plane.layer);
+        const bool built_in = row && row->source == plane.source;
+        rows.add(
+            plane.layer, built_in ? std::string(row->what) : "an output of shaders",
+            fmt::format("filter {}, background {:g}", word_of(plane.filter), plane.background));
+    }
+}
+
 // The nodes and the camera of a pose that has made no frame.
 void stand_at_start(const Scene& scene, Pose& pose) {
     evaluate_anew(scene, pose, scene.options.start_time);
@@ -45,7 +58,7 @@ constexpr struct {
 } kSections[] = {
     {"added", explain_added},     {"meshes", explain_meshes}, {"animation", explain_animation},
     {"shaders", explain_shaders}, {"lights", explain_lights}, {"textures", explain_textures},
-    {"passes", explain_passes},
+    {"passes", explain_passes},   {"aovs", explain_aovs},
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
+#include "runtime/picture/frame/neighbours_p.h"
+#include "runtime/picture/frame/planes_p.h"
 #include "runtime/picture/frame/report_p.h"
 #include "runtime/scene/camera.h"
 #include "runtime/scene/scene.h"
@@ -38,28 +40,16 @@ class FrameTimer {
     RunningClock running_;
 };
 
-// The film's planes are those of the scene's outputs.
-void prepare_planes(const Scene& scene, raytrace::Film& film) {
-    bool same = film.aovs.size() == scene.outputs.size();
-    for (size_t p = 0; same && p < film.aovs.size(); ++p)
-        same = film.aovs[p].name == scene.outputs[p].name;
-    if (same) return;
-    film.aovs.clear();
-    for (const OutputPlane& plane : scene.outputs) {
-        using raytrace::AovFilter;
-        film.add_aov(plane.name, plane.depth ? AovFilter::Least : AovFilter::Mean);
-        film.aovs.back().in_file = plane.in_file;
-    }
-}
-
 void begin_shading(const Scene& scene, Pose& pose, const FrameSettings& settings,
                    raytrace::Film& film) {
     if (!pose.shading) pose.shading = std::make_shared<Shading>(scene, pose);
     prepare_planes(scene, film);
     if (film.is_band && settings.band_rows == 0) film.resize(pose.view.width, pose.view.height);
     pose.shading->stop_by(settings.stop);
-    pose.shading->show(settings.insight);
-    const ShadingInsight& insight = settings.insight;
+    ShadingInsight insight = settings.insight;
+    if (!insight.costs && has_plane_of(scene, AovSource::Cost))
+        insight.costs = &pose.shading->costs();
+    pose.shading->show(insight);
     if (insight.costs) insight.costs->start(pose.view.width, pose.view.height);
     if (insight.first)
         insight.first->start(pose.view.width, pose.view.height, scene.shader_instances.size());
@@ -91,6 +81,11 @@ bool make_film(const Scene& scene, Pose& pose, const FrameSettings& settings, ra
                raytrace::IntegratorCounters& counters, size_t& bad,
                const raytrace::Progress* progress) {
     if (!trace_film(pose, settings, film, counters, progress)) return false;
+    if (has_plane_of(scene, AovSource::Cost)) {
+        const PixelCosts* costs = settings.insight.costs;
+        fill_costs(scene, costs ? *costs : pose.shading->costs(),
+                   settings.integrator.samples_per_pixel, film);
+    }
     if (scene.imager == kNone) return true;
     StageScope stage(Stage::Imager);
     const size_t found = pose.shading->run_imager(film, settings.integrator.nan);
@@ -150,9 +145,7 @@ bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings
         pose.shutter = settings.shutter;
         update_transforms(scene, pose);
     }
-    raytrace::CameraStatus camera =
-        settings.camera ? set_view(scene, pose, *settings.camera, settings.width, settings.height)
-                        : set_view(scene, pose, settings.width, settings.height);
+    const raytrace::CameraStatus camera = set_frame_view(scene, pose, settings);
     if (!report_camera(scene, pose, camera, diagnostics)) return false;
     {
         StageTimer timer(stats.skin);
@@ -169,6 +162,11 @@ bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings
             if (const Shape& shape = scene.shapes[s]; shape.vertex_work)
                 shape.vertex_work->report(mesh_of(scene, shape), *pose.shapes[s].vertex_state,
                                           diagnostics);
+    }
+    {
+        StageTimer timer(stats.skin);
+        StageScope stage(Stage::Skin);
+        pose_neighbours(scene, pose, time, settings);
     }
     {
         StageTimer timer(stats.refit);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "raytrace/accel.h"
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 #include "runtime/picture/frame/frame.h"
 
 namespace kinora {

@@ -53,7 +53,7 @@ const float* plane_of(const SceneShaders& shaders, const raytrace::Film& film,
                       const VaryingParam& param, uint32_t component) {
     const float* whole = nullptr;  // of a parameter that surfaces give as one float
     for (size_t p = 0; p < shaders.outputs.size(); ++p) {
-        if (shaders.outputs[p].parameter != param.name || shaders.outputs[p].element > 0) continue;
+        if (shaders.outputs[p].layer != param.name || shaders.outputs[p].element > 0) continue;
         if (shaders.outputs[p].component == component) return film.aovs[p].values.data();
         if (shaders.outputs[p].component == 0) whole = film.aovs[p].values.data();
     }

@@ -11,6 +11,7 @@
 #include "runtime/picture/shading/bake.h"
 #include "runtime/picture/shading/dome.h"
 #include "runtime/picture/shading/grid_host.h"
+#include "runtime/picture/shading/hit_planes.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/imager.h"
 #include "runtime/picture/shading/lighting/lamps.h"
@@ -52,6 +53,7 @@ struct Shading::Objects {
     bool reads_footprints = false;
     bool fills_space = false;  // an atmosphere of the background, or an exterior
     bool has_mattes = false;
+    PixelCosts costs;
 
     ShadingCounters counted() const {  // by all threads, in this frame
         ShadingCounters total;
@@ -159,6 +161,10 @@ void Shading::begin_frame(uint32_t seed, int max_layers, bool all_inputs) {
 void Shading::stop_by(const std::atomic<int>* flag) {
     objects_->frame.stop = flag;
 }
+PixelCosts& Shading::costs() {
+    return objects_->costs;
+}
+
 void Shading::show(const ShadingInsight& insight) {
     objects_->frame.insight = insight;
 }
@@ -186,6 +192,7 @@ ShadingCounters Shading::drop_frame(Diagnostics& diagnostics) {
 
 void Shading::shade(const raytrace::HitBatch& hits, int thread, raytrace::ShadeResult& result) {
     objects_->hits.shade(hits, {}, *objects_->threads[size_t(thread)], result);
+    fill_hit_planes(objects_->frame, hits, result);
 }
 
 bool Shading::reads_footprints() const {

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <memory>
 
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 #include "runtime/base/diagnostic.h"
 #include "runtime/picture/shading/frame/frame.h"
 
@@ -30,6 +30,8 @@ class Shading : public raytrace::SurfaceShading {
     bool stopped() const override;
     // What the next frame is to show of its making, until its end.
     void show(const ShadingInsight& insight);
+    // Memory for what the frame's pixels take, if nobody brings any.
+    PixelCosts& costs();
     // After the last: sums counters; reports faults, one finding a source line.
     // `whole`: the picture was finished, so what it baked is written.
     ShadingCounters end_frame(Diagnostics& diagnostics, bool whole = true);

@@ -9,22 +9,6 @@
 
 namespace kinora {
 
-std::string number_name(uint32_t node) {
-    return "#" + std::to_string(node + 1);
-}
-
-std::string node_path(const SceneNodes& scene, uint32_t node) {
-    std::string path;
-    for (uint32_t n = node; n != kNone; n = scene.nodes[n].parent) {
-        if (scene.nodes[n].definition == kNone) continue;
-        const NodeDefinition& step = scene.description->nodes[scene.nodes[n].definition];
-        std::string name = step.id.empty() ? step.name : step.id;
-        if (name.empty()) name = number_name(n);
-        path = name + (path.empty() ? "" : "/" + path);
-    }
-    return path;
-}
-
 uint32_t find_node(const SceneNodes& scene, const std::string& wanted) {
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
         if (scene.nodes[n].definition == kNone) continue;

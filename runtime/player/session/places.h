@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "runtime/base/math.h"
+#include "runtime/scene/names.h"
 #include "runtime/scene/nodes.h"
 #include "runtime/scene/pose.h"
 
@@ -13,10 +14,8 @@ namespace kinora {
 
 struct SceneShapes;
 
-// "torso/head/eye", by ids; of a node with neither id nor name its number from 1: "#7".
-std::string number_name(uint32_t node);
-std::string node_path(const SceneNodes& scene, uint32_t node);
-uint32_t find_node(const SceneNodes& scene, const std::string& path_id_or_name);  // kNone: none
+// By node_path(), id or name. kNone: there is none.
+uint32_t find_node(const SceneNodes& scene, const std::string& path_id_or_name);
 
 // The box around what is on the node and below it, as it stands; nothing: low > high.
 std::pair<dvec3, dvec3> box_of(const SceneNodes& scene, const SceneShapes& shapes, const Pose& pose,

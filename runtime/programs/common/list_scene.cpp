@@ -124,7 +124,7 @@ std::string param_line(const Json& row) {
                        row["type"].get<std::string>(), row["shader"].get<std::string>());
 }
 
-// What --aov takes.
+// What --aov takes: of the scene's shaders.
 Json aovs(const Scene& scene) {
     return rows_of(listed_aovs(scene));
 }
@@ -132,6 +132,28 @@ Json aovs(const Scene& scene) {
 std::string aov_line(const Json& row) {
     return fmt::format("aov {} ({}, of {})\n", row["name"].get<std::string>(),
                        row["type"].get<std::string>(), row["shader"].get<std::string>());
+}
+
+// And of every material.
+Json built_in_aovs(const Scene&) {
+    Json list = Json::array();
+    for (const AovRow& row : aov_rows())
+        list.push_back({{"name", row.name},
+                        {"channels", parted_words(row.channels)},
+                        {"filter", word_of(row.filter)},
+                        {"premultiplied", row.filter == raytrace::AovFilter::Mean},
+                        {"background", row.background},
+                        {"what", row.what}});
+    return list;
+}
+
+std::string built_in_aov_line(const Json& row) {
+    const bool premultiplied = row["premultiplied"].get<bool>();
+    return fmt::format(
+        "built in: aov {} ({}; {}; {}{})\n", row["name"].get<std::string>(),
+        row["channels"].empty() ? "1 channel" : fmt::format("{} channels", row["channels"].size()),
+        row["what"].get<std::string>(), row["filter"].get<std::string>(),
+        premultiplied ? ", premultiplied" : "");
 }
 
 Json lights(const Scene& scene) {
@@ -186,6 +208,7 @@ constexpr Kind kKinds[] = {
     {"ours", ours, our_line},
     {"params", params, param_line},
     {"aovs", aovs, aov_line},
+    {"builtins", built_in_aovs, built_in_aov_line},
     {"lights", lights, light_line},
     {"nodes", nodes, node_line},
 };
@@ -211,8 +234,10 @@ std::string_view meaning_of(std::string_view added) {
     return "";
 }
 
-// "shaders" are the scene's and what may take their place; "all" is of the scene alone.
+// "shaders" are the scene's and what may take their place, "aovs" those of its shaders and of every
+// material; "all" is of the scene alone.
 bool is_wanted(std::string_view row, std::string_view kind) {
+    if (row == "builtins") return kind == row || kind == "aovs";
     if (row == "ours") return kind == row || kind == "shaders";
     return kind == "all" || kind == row;
 }

@@ -13,6 +13,7 @@
 #include "runtime/base/check.h"
 #include "runtime/programs/manual/rows.h"
 #include "runtime/programs/manual/statements.h"
+#include "runtime/scene/aovs/aovs.h"
 
 namespace kinora {
 
@@ -218,7 +219,7 @@ struct Page {
 };
 constexpr Page kPages[] = {
     {"builtins", builtins_page},     {"globals", globals_page},   {"words", words_page},
-    {"statements", statements_page}, {"findings", findings_page},
+    {"statements", statements_page}, {"findings", findings_page}, {"aovs", aov_table},
 };
 
 }  // namespace

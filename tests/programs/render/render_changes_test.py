@@ -268,7 +268,8 @@ class Lists(Changes):
         every = json.loads(self.expect(render(self.scene, "--list", "--json"), 0).out)
         self.assertEqual(sorted(every), sorted((*kinds, "added")))
         text = self.expect(render(self.scene, "--list"), 0).out
-        text += self.expect(render(self.scene, "--list", "shaders"), 0).out  # ours too
+        for kind in ("shaders", "aovs"):  # ours too, and those of every material
+            text += self.expect(render(self.scene, "--list", kind), 0).out
         for kind in kinds:
             one = json.loads(render(self.scene, "--list", kind, "--json").out)
             self.assertEqual(one[kind], every[kind])

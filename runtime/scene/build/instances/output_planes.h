@@ -20,12 +20,19 @@ class OutputPlanes {
                  std::span<const FileDisplay> displays, std::span<const ShaderUse> imagers,
                  Diagnostics& diagnostics);
 
-    // The outputs behind the planes: parameters, globals, or z.
+    // The outputs of kernels behind the planes: parameters, globals, or z.
     const std::vector<std::string>& outputs() const { return outputs_; }
 
   private:
-    bool add(const std::string& output, bool in_file, bool global = true);
+    enum class Reader : uint8_t { File, Display, Imager };
+
+    void add_wanted(const std::string& text, Diagnostics& diagnostics);
+    void add_all(const WantedAov& wanted, Diagnostics& diagnostics);
     void add_display(const FileDisplay& display, Diagnostics& diagnostics);
+    bool add_built_in(const WantedAov& wanted, Diagnostics& diagnostics);
+    bool add_output(const WantedAov& wanted, Reader reader);
+    bool is_there(const std::string& layer) const;
+    void ask_kernels(const std::string& output);
 
     SceneShaders& scene_;
     std::vector<std::string> outputs_;

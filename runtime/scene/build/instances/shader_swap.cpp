@@ -183,7 +183,8 @@ ShaderSwapper::ShaderSwapper(const Scene& scene, SceneDescription description,
     options_.quality = scene.options.quality;
     options_.target = scene.options.target;
     options_.own_lines = true;  // who edits may look at the code beside the text
-    for (const OutputPlane& plane : outputs_) add_new_names(options_.aovs, {plane.parameter});
+    for (const OutputPlane& plane : outputs_)
+        if (!plane.parameter.empty()) add_new_names(options_.aovs, {plane.parameter});
     for (const NodeDefinition& node : scene.description->nodes)
         if (!node.id.empty()) space_names_.push_back(node.id);
     for (const auto& instance : scene.shader_instances) {

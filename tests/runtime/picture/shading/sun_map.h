@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "raytrace/integrator.h"
+#include "raytrace/tiles/integrator.h"
 #include "runtime/base/math.h"
 #include "runtime/scene/images/image_io.h"
 

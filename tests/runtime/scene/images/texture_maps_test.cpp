@@ -192,7 +192,7 @@ TEST(EnvironmentCube, LooksWhereOpenExrWould) {
 // What a film holds reaches the file: colours as halves, planes as floats.
 TEST(WriteImage, WhatIsFiniteStaysFiniteInAnExr) {
     raytrace::Film film(1, 1);
-    film.add_aov("far", raytrace::AovFilter::FirstSample);
+    film.add_aov("far", raytrace::AovFilter::Nearest);
     film.at(0, 0) = vec4(1e30f, 1e-30f, -1e30f, 1);
     film.aovs[0].values[0] = 1e30f;
     const std::string path = temp_path("extreme.exr");

@@ -1,11 +1,11 @@
-// raytrace/integrator.cpp: shares the picture's tiles among the threads.
-#include "raytrace/integrator.h"
+// raytrace/tiles/integrator.cpp: shares the picture's tiles among the threads.
+#include "raytrace/tiles/integrator.h"
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 
-#include "raytrace/tile_job_p.h"
+#include "raytrace/tiles/tile_job_p.h"
 #include "runtime/base/check.h"
 
 namespace kinora::raytrace {
@@ -70,6 +70,7 @@ void prepare(Film& film, const Camera& camera, const IntegratorSettings& setting
                                  pixels * size_t(settings.samples_per_pixel));
     for (auto& thread : scratch.threads) {
         thread->reserve(rays, pixels, film.aovs.size());
+        thread->planes.reserve(film.aovs, pixels);
         if (misses) thread->misses.reserve(rays);
         thread->counters = {};
         thread->begun = thread->passed = 0;

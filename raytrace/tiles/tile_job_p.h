@@ -1,11 +1,12 @@
-// raytrace/tile_job_p.h: one thread's work on one tile.
+// raytrace/tiles/tile_job_p.h: one thread's work on one tile.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
-#include "raytrace/integrator.h"
 #include "raytrace/pixels/pixels.h"
+#include "raytrace/tiles/integrator.h"
+#include "raytrace/tiles/tile_planes_p.h"
 #include "raytrace/zeroed_vector.h"
 
 namespace kinora::raytrace {
@@ -47,7 +48,7 @@ struct IntegratorScratch::Thread {
     size_t passed = 0;  // but for so many, which went on behind hits
     ZeroedVector<double> sum;   // colour and coverage, by pixel of the tile, in its order
     ZeroedVector<double> held;  // of mattes: how much they hide, three a pixel
-    std::vector<ZeroedVector<double>> sum_aov;
+    PlaneMemory planes;
 
     void reserve(size_t chunk, size_t tile_pixels, size_t aovs);
 };
@@ -67,6 +68,7 @@ class TileJob {
           settings_(settings),
           filter_(filter),
           m_(scratch),
+          planes_(film, settings, filter, scratch.planes),
           thread_(thread) {}
 
     void run(const Tile& tile);
@@ -89,7 +91,8 @@ class TileJob {
     void mend(const HitBatch& hits);
     bool mend_hit(size_t k);
     bool shows_first(const HitBatch& hits, size_t k) const;
-    void keep_aovs(const HitBatch& hits);
+    void keep_planes(const HitBatch& hits);
+    void count_samples();
     void composite(const HitBatch& hits);
     void hold_out(const HitBatch& hits);
     vec4 behind_mattes(size_t pixel) const;
@@ -111,6 +114,7 @@ class TileJob {
     const IntegratorSettings& settings_;
     const FilterTable* filter_;  // with several samples a pixel
     IntegratorScratch::Thread& m_;
+    TilePlanes planes_;
     int thread_;
     Tile tile_{};
 };

@@ -1,5 +1,5 @@
-// raytrace/tile_job.cpp: a tile's samples, traced, shaded and laid one behind the other.
-#include "raytrace/tile_job_p.h"
+// raytrace/tiles/tile_job.cpp: a tile's samples, traced, shaded and laid one behind the other.
+#include "raytrace/tiles/tile_job_p.h"
 
 #include <algorithm>
 #include <bit>
@@ -28,12 +28,10 @@ void IntegratorScratch::Thread::reserve(size_t chunk, size_t tile_pixels, size_t
     held.resize(std::max(held.size(), 3 * tile_pixels));
     if (shaded_aov.size() != aovs) {
         shaded_aov.resize(aovs);
-        sum_aov.resize(aovs);
         aov_pointers.resize(aovs);
     }
     for (size_t k = 0; k < aovs; ++k) {
         shaded_aov[k].resize(std::max(shaded_aov[k].size(), chunk + kPacket));
-        sum_aov[k].resize(std::max(sum_aov[k].size(), tile_pixels));
         aov_pointers[k] = shaded_aov[k].data();
     }
 }
@@ -114,11 +112,8 @@ vec4 TileJob::run_sample(const Tile& tile, int sample) {
 void TileJob::begin_tile() {
     std::fill_n(m_.sum.begin(), 4 * tile_.pixels(), 0.0);
     if (shading_.has_mattes()) std::fill_n(m_.held.begin(), 3 * tile_.pixels(), 0.0);
-    for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane) {
-        const bool least = film_.aovs[plane].filter == AovFilter::Least;
-        std::fill_n(m_.sum_aov[plane].begin(), tile_.pixels(), least ? double(kNoDepth) : 0.0);
-    }
     m_.order.set_size(tile_.x1 - tile_.x0, tile_.y1 - tile_.y0);
+    planes_.begin(m_.order.pixels(tile_));
     if (settings_.samples_per_pixel > 1) kernels_.scrambles(m_.order.pixels(tile_), settings_.seed);
 }
 
@@ -248,7 +243,7 @@ void TileJob::follow_layers() {
         }
         shade(hits);
         if (shading_.has_mattes()) hold_out(hits);
-        keep_aovs(hits);
+        keep_planes(hits);
         composite(hits);
     }
 }
@@ -331,25 +326,27 @@ bool TileJob::shows_first(const HitBatch& hits, size_t k) const {
     return clear && there;
 }
 
-void TileJob::keep_aovs(const HitBatch& hits) {
-    for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane) {
-        const AovFilter filter = film_.aovs[plane].filter;
-        const bool first_only = filter == AovFilter::FirstSample;
-        const double weight = first_only ? 1.0 : 1.0 / settings_.samples_per_pixel;
-        for (size_t k = 0; k < hits.count; ++k) {
-            if ((first_only && hits.sample[k] != 0) || !shows_first(hits, k)) continue;
-            const size_t slot = m_.rays.slot[hits.ray[k]];
-            double& kept = m_.sum_aov[plane][pixel_of(slot)];
-            const double value = double(m_.shaded_aov[plane][k]);
-            if (filter == AovFilter::Least)
-                kept = std::min(kept, value);
-            else
-                kept += weight * value * (first_only ? 1 : weight_of(slot));
-        }
+void TileJob::keep_planes(const HitBatch& hits) {
+    if (film_.aovs.empty()) return;
+    for (size_t k = 0; k < hits.count; ++k) {
+        if (!shows_first(hits, k)) continue;
+        const size_t slot = m_.rays.slot[hits.ray[k]];
+        planes_.keep({k, pixel_of(slot), hits.sample[k], weight_of(slot)}, m_.aov_pointers);
     }
 }
 
-// What mattes hide is neither their colour nor coverage. Distances stay theirs.
+// For the variance of the pixels, if a plane is to have it.
+void TileJob::count_samples() {
+    if (!planes_.has_variance()) return;
+    for (size_t slot = 0; slot < tile_.pixels() * m_.samples.size(); ++slot) {
+        vec3 color(m_.color[0][slot], m_.color[1][slot], m_.color[2][slot]);
+        const vec3 through(m_.through[0][slot], m_.through[1][slot], m_.through[2][slot]);
+        if (settings_.background) color += through * *settings_.background;
+        planes_.count(pixel_of(slot), color);
+    }
+}
+
+// What mattes hide is neither their colour nor coverage. Distances, places and ids stay theirs.
 void TileJob::hold_out(const HitBatch& hits) {
     for (size_t k = 0; k < hits.count; ++k) {
         if (!shading_.is_matte(hits, k)) continue;
@@ -360,8 +357,8 @@ void TileJob::hold_out(const HitBatch& hits) {
                 weight_of(slot) *
                 double(m_.through[c][slot] * std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f));
         }
-        for (size_t plane = 0; plane < m_.sum_aov.size(); ++plane)
-            if (film_.aovs[plane].filter != AovFilter::Least) m_.shaded_aov[plane][k] = 0;
+        for (size_t plane = 0; plane < m_.shaded_aov.size(); ++plane)
+            if (film_.aovs[plane].filter == AovFilter::Mean) m_.shaded_aov[plane][k] = 0;
     }
 }
 
@@ -445,6 +442,7 @@ void TileJob::finish_samples() {
     }
     kernels_.add(tile_.pixels(), m_.samples.size(), color, through,
                  settings_.background ? &settings_.background->x : nullptr, m_.sum.data());
+    count_samples();
 }
 
 void TileJob::write_tile() const {
@@ -456,8 +454,8 @@ void TileJob::write_tile() const {
         for (int c = 0; c < 4; ++c) out[c] = float(weight * m_.sum[4 * pixel + size_t(c)]);
         if (shading_.has_mattes()) out += float(weight) * behind_mattes(pixel);
         const size_t at = size_t(y) * size_t(film_.width) + size_t(x);
-        for (size_t k = 0; k < m_.sum_aov.size(); ++k)
-            film_.aovs[k].values[at] = float(m_.sum_aov[k][pixel]);
+        for (size_t k = 0; k < film_.aovs.size(); ++k)
+            film_.aovs[k].values[at] = planes_.value(k, pixel);
     }
 }
 

@@ -1,4 +1,5 @@
-// raytrace/integrator.h: from a camera to a film: tiles, layers, and the surfaces' shading between.
+// raytrace/tiles/integrator.h: from a camera to a film: tiles, layers, and the surfaces' shading
+// between.
 #pragma once
 
 #include <atomic>
