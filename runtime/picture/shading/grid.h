@@ -17,6 +17,7 @@
 
 namespace kinora {
 
+class DirectionNotes;
 class LightAnswer;
 class LightShadows;
 class RayNotes;
@@ -58,8 +59,9 @@ struct Grid : PicturePoints {
     // Of each point, or none where no kernel shoots rays; a light's are those of the points it
     // lights.
     std::span<PointRays> rays;
-    bool goes_on = false;       // the rays that see the points may go on behind them
-    RayNotes* notes = nullptr;  // of calls whose rays wait for those of other points
+    bool goes_on = false;                  // the rays that see the points may go on behind them
+    RayNotes* notes = nullptr;             // of calls whose rays wait for those of other points
+    DirectionNotes* directions = nullptr;  // of calls of samplinglights that wait so, if any do
 
     // Something is drawn at random for its points (FirstHits). A light's are those of the surface
     // it lights.

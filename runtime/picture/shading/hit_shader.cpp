@@ -79,7 +79,7 @@ void HitShader::shade(const raytrace::HitBatch& hits, const RayTag& ray, ThreadM
     RayNotes notes(queue_, hits.depth + 1, memory);
     auto shade_lit = [&] {
         light_grids(lit.first(grids), shadows, notes);
-        note_rays(lit.first(grids), notes);
+        note_rays(lit.first(grids), shadows, notes);
         for (Grid* grid : lit.first(grids)) {
             notes.answer(*grid);
             shade_grid(call, *grid);
@@ -191,13 +191,24 @@ void HitShader::light_grids(std::span<Grid* const> grids, LampRays& shadows, Ray
     shadows.finish();
 }
 
-void HitShader::note_rays(std::span<Grid* const> grids, RayNotes& notes) {
-    auto sends = [](const Grid& grid) { return sends_noted_rays(*grid.look, grid); };
+// Rays, and directions that lights are asked for.
+void HitShader::note_rays(std::span<Grid* const> grids, LampRays& shadows, RayNotes& notes) {
+    auto sends = [&](const Grid& grid) {
+        return sends_noted_rays(*grid.look, grid) || lights_.notes_directions(grid);
+    };
     if (frame_.stopped()) return;
     note_together(grids, sends, notes, [&](Grid& grid) {
         grid.notes = &notes;
+        lights_.start_directions(grid);
         kernels_.run_noting(grid, [&] { kernels_.run_in_the_dark(grid); });
     });
+    for (Grid* grid : grids) {
+        if (!grid->directions) continue;
+        grid->shadows = &shadows;
+        lights_.answer_directions(*grid);
+        grid->shadows = &shadows_;
+    }
+    shadows.finish();
 }
 
 // A grid in the arena with all that its kernel and its lights read.

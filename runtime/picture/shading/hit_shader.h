@@ -51,7 +51,7 @@ class HitShader {
     struct Call;
     Grid& make_grid(const Call& call, const LookRun& run, std::span<const uint32_t> points);
     void light_grids(std::span<Grid* const> grids, LampRays& shadows, RayNotes& notes);
-    void note_rays(std::span<Grid* const> grids, RayNotes& notes);
+    void note_rays(std::span<Grid* const> grids, LampRays& shadows, RayNotes& notes);
     void shade_grid(const Call& call, Grid& grid);
     void count_dark(const Grid& grid, const raytrace::ShadeResult& result) const;
 

@@ -111,7 +111,7 @@ void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
 
 void KernelRunner::start_accounts(Grid& grid) const {
     std::fill(grid.calls.begin(), grid.calls.end(), uint16_t(0));
-    for (size_t i = 0; i < grid.count(); ++i) {
+    for (size_t i = 0; i < grid.rays.size(); ++i) {
         grid.rays[i] = {};
         if (const raytrace::RayBatch* rays = grid.hits.rays)
             grid.rays[i].shot = rays->spent[grid.hits.ray[grid.points[i]]];

@@ -480,16 +480,34 @@ struct RayNotes::Note {
     Note* next;
 };
 
+RayNotes::Batch::Batch(const RayTag& of, ThreadMemory& memory) : tag(of), wave(memory) {
+    wave->rays.reserve(kGridPoints);
+    wave->rays.count = 0;
+}
+
 void RayNotes::start() {
     open_ = true;
-    batch_->rays.reserve(kGridPoints);
-    batch_->rays.count = 0;
-    targets_ = memory_.arena.allocate_span<SeenByRay*>(kGridPoints);
 }
 
 void RayNotes::finish() {
-    flush();
+    for (auto& batch : batches_)
+        if (batch) flush(*batch);
     open_ = false;
+}
+
+// Where too many tags take turns, the rays of the one that has most go first.
+RayNotes::Batch& RayNotes::batch_of(const RayTag& tag) {
+    Batch* fullest = nullptr;
+    for (auto& batch : batches_) {
+        if (!batch) batch.emplace(tag, memory_);
+        if (batch->targets.empty())
+            batch->targets = memory_.arena.allocate_span<SeenByRay*>(kGridPoints);
+        if (batch->tag == tag) return *batch;
+        if (!fullest || batch->wave->rays.count > fullest->wave->rays.count) fullest = &*batch;
+    }
+    flush(*fullest);
+    fullest->tag = tag;
+    return *fullest;
 }
 
 bool RayNotes::is_of(const Note* note, const Grid& grid) {
@@ -502,6 +520,8 @@ void RayNotes::answer(const Grid& grid) {
 
 void RayNotes::reset() {
     first_ = last_ = next_ = nullptr;
+    for (auto& batch : batches_)
+        if (batch) batch->targets = {};
 }
 
 RayNotes::Note& RayNotes::add_note(const RayCall& call) {
@@ -530,10 +550,10 @@ void RayNotes::note(const RayCall& call, const RayTag& tag, const AddSamples& ad
     PlannedSamples planned(call.lanes, call.plan);
     uint8_t lane[kSixteen];
     uint32_t number[kSixteen];
-    raytrace::RayBatch& rays = batch_->rays;
+    Batch& batch = batch_of(tag);
+    raytrace::RayBatch& rays = batch.wave->rays;
     for (;;) {
-        if (tag != tag_ || rays.count == kGridPoints) flush();
-        tag_ = tag;
+        if (rays.count == kGridPoints) flush(batch);
         const size_t first = rays.count;
         const size_t n =
             planned.take(lane, number, std::min<size_t>(kSixteen, kGridPoints - first));
@@ -542,7 +562,7 @@ void RayNotes::note(const RayCall& call, const RayTag& tag, const AddSamples& ad
         add(rays, {{lane, n}, {number, n}}, uint32_t(first));
         set_kind(rays, first, call.kind);
         for (size_t r = first; r < rays.count; ++r) {
-            targets_[r] = seen + (rays.slot[r] - first);
+            batch.targets[r] = seen + (rays.slot[r] - first);
             rays.slot[r] = uint32_t(r);
         }
         seen += n;
@@ -564,14 +584,14 @@ std::optional<std::span<const SeenByRay>> RayNotes::find(const RayCall& call) {
     return {};
 }
 
-void RayNotes::flush() {
-    raytrace::RayBatch& rays = batch_->rays;
+void RayNotes::flush(Batch& batch) {
+    raytrace::RayBatch& rays = batch.wave->rays;
     const size_t count = rays.count;
     if (count == 0) return;
     Arena::Mark mark = memory_.arena.mark();
     std::span<SeenByRay> seen = memory_.arena.allocate_span<SeenByRay>(count);
-    queue_.see(rays, depth_, tag_, memory_, seen);
-    for (size_t r = 0; r < count; ++r) *targets_[r] = seen[r];
+    queue_.see(rays, depth_, batch.tag, memory_, seen);
+    for (size_t r = 0; r < count; ++r) *batch.targets[r] = seen[r];
     rays.count = 0;
     memory_.arena.release(mark);
 }

@@ -113,7 +113,7 @@ class RayNotes {
   public:
     // Of grids whose hits rays of `depth` see.
     RayNotes(RayQueue& queue, uint32_t depth, ThreadMemory& memory)
-        : queue_(queue), depth_(depth), memory_(memory), batch_(memory) {}
+        : queue_(queue), depth_(depth), memory_(memory) {}
 
     // Between these two, calls are noted.
     void start();
@@ -133,14 +133,23 @@ class RayNotes {
     Note& add_note(const RayCall& call);
     // What the rays of the same call saw; nothing where it was not noted.
     std::optional<std::span<const SeenByRay>> find(const RayCall& call);
-    void flush();
+    // Rays of one tag that wait.
+    struct Batch {
+        Batch(const RayTag& of, ThreadMemory& memory);
+        RayTag tag;
+        NestedWavefront wave;
+        std::span<SeenByRay*> targets;  // of each ray
+    };
+    Batch& batch_of(const RayTag& tag);
+    void flush(Batch& batch);
+
+    // Calls of a kernel take turns: rays of so many tags wait beside each other.
+    static constexpr size_t kMostTags = 6;
 
     RayQueue& queue_;
     uint32_t depth_;
     ThreadMemory& memory_;
-    NestedWavefront batch_;
-    RayTag tag_;
-    std::span<SeenByRay*> targets_;  // of each ray of the batch
+    std::optional<Batch> batches_[kMostTags];  // the first ones
     Note *first_ = nullptr, *last_ = nullptr;
     Note* next_ = nullptr;  // of the grid that is answered
     bool open_ = false;

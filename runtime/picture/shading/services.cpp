@@ -6,6 +6,7 @@
 #include "raytrace/hits.h"
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/shading/bake.h"
+#include "runtime/picture/shading/lighting/chosen_directions.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
@@ -109,6 +110,7 @@ void NotingHost::lights(const jit::ServiceCall& call) {
 }
 
 void NotingHost::samplinglights(const jit::ServiceCall& call) {
+    if (grid_.directions) grid_.directions->note(call);
     lights(call);
 }
 

@@ -42,7 +42,7 @@ AreaLights::AreaLights(const ShadingFrame& frame, const LightBindings& bindings)
         auto& light = lights_.emplace_back();
         if (source.surface == kNone) continue;
         light = std::make_unique<AreaLight>();
-        any_ = true;
+        all_.push_back(l);
         light->surfaces = source.emitting;
         light->emits = !source.emitting.empty();
         if (!light->emits) light->surfaces = {source.surface};

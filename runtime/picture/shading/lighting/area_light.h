@@ -72,7 +72,8 @@ class AreaLights {
     void begin_frame();
     // Light `light` among Scene::lights; null where it is none on geometry.
     const AreaLight* find(size_t light) const { return lights_[light].get(); }
-    bool any() const { return any_; }
+    // Those on geometry.
+    std::span<const size_t> all() const { return all_; }
     void sample_by_angle(size_t light, bool by_angle) { lights_[light]->by_angle = by_angle; }
     // Triangles of a light get samples by their area times `power`, one number for each; none: by
     // area alone.
@@ -90,7 +91,7 @@ class AreaLights {
     std::vector<std::unique_ptr<AreaLight>> lights_;
     std::vector<dvec3> corners_;  // of one light's triangles that have an area
     std::vector<uint32_t> numbers_;
-    bool any_ = false;
+    std::vector<size_t> all_;
 };
 
 }  // namespace kinora

@@ -10,6 +10,7 @@
 
 #include "raytrace/hits.h"
 #include "runtime/picture/shading/lane_rays.h"
+#include "runtime/picture/shading/lighting/chosen_directions.h"
 #include "runtime/picture/shading/lighting/emission.h"
 #include "runtime/picture/shading/lighting/lamp_sampler.h"
 #include "runtime/picture/shading/lighting/light_records.h"
@@ -232,43 +233,37 @@ namespace {
 
 constexpr int kMostLamps = 16;  // one behind the other along a direction
 
-// Rays of the lanes that ask, which meet lamps alone; a slot is the lane.
-void add_lamp_rays(raytrace::RayBatch& rays, const Grid& grid, const jit::ServiceCall& call) {
+// Rays of the points that ask, which meet lamps alone; a slot is the point's number.
+void add_lamp_rays(raytrace::RayBatch& rays, const Grid& grid, const LightPoints& at,
+                   const ChosenDirections& directions) {
     const mat3 accel_from_camera = glm::transpose(grid.frame.camera_from_accel);
-    auto triple_of = [&](int row, int lane) {
-        return vec3(along_argument(call, row)[lane], along_argument(call, row + 1)[lane],
-                    along_argument(call, row + 2)[lane]);
-    };
-    for (int lane = 0; lane < call.lanes; ++lane) {
-        if (!(call.mask >> lane & 1)) continue;
-        const vec3 D = accel_from_camera * triple_of(kAlong, lane);
-        if (!(glm::dot(D, D) > 0) || !(along_argument(call, kMaterialDensity)[lane] > 0)) continue;
-        const size_t point = std::min(size_t(call.first + lane), grid.count() - 1);
-        add_ray(rays, grid, ray_start(grid, point, triple_of(0, lane)), D, kMiss, -1, 0,
-                uint32_t(lane));
+    for (size_t i = 0; i < at.count; ++i) {
+        const vec3 D = accel_from_camera * directions.at(i);
+        if (!(glm::dot(D, D) > 0) || !(directions.density[i] > 0)) continue;
+        const vec3 P(at.P[0][i], at.P[1][i], at.P[2][i]);
+        add_ray(rays, grid, ray_start(grid, at.first + i, P), D, kMiss, -1, 0, uint32_t(i));
         rays.sees[rays.count - 1] = raytrace::kMaskLamp;
     }
 }
 
 }  // namespace
 
-void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
-    if (!area_lights_.any()) return;
+void LightRecords::lamps_along(Making& making, const ChosenDirections& directions) {
+    if (area_lights_.all().empty()) return;
     ThreadMemory& memory = making.grid.memory;
     NestedWavefront batch(memory);
     raytrace::RayBatch& rays = batch->rays;
     rays.reserve(kGridPoints);
     rays.count = 0;
-    add_lamp_rays(rays, making.grid, call);
+    add_lamp_rays(rays, making.grid, making.at, directions);
     for (int layer = 0; layer < kMostLamps && rays.count > 0; ++layer) {
         NestedWavefront nested(memory);
         nested->hits.reserve(kGridPoints);
         const raytrace::HitBatch& hits =
             raytrace::trace(frame_.pose.accel, rays, raytrace::kMaskLamp, making.grid.depth + 1,
                             nested->hits, memory.counters.trace);
-        for (size_t l = 0; l < frame_.lights.lights.size(); ++l)
-            if (area_lights_.find(l) && !is_dark(making.grid, l, {}))
-                lamp_along(making, l, call, rays, hits);
+        for (size_t l : area_lights_.all())
+            if (!is_dark(making.grid, l, {})) lamp_along(making, l, directions, rays, hits);
         for (size_t h = 0; h < hits.count; ++h)
             raytrace::pass_through(frame_.pose.accel, rays, h, hits, h);
         rays.count = hits.count;
@@ -277,7 +272,7 @@ void LightRecords::lamps_along(Making& making, const jit::ServiceCall& call) {
     rays.passing = false;
 }
 
-void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& call,
+void LightRecords::lamp_along(Making& making, size_t l, const ChosenDirections& directions,
                               const raytrace::RayBatch& rays, const raytrace::HitBatch& hits) {
     const AreaLight& light = *area_lights_.find(l);
     if (std::none_of(hits.instance, hits.instance + hits.count,
@@ -288,15 +283,16 @@ void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& 
     std::fill(samples.primitive.begin(), samples.primitive.end(), 0u);
     std::fill_n(samples.u, samples.primitive.size(), 0.0f);
     std::fill_n(samples.v, samples.primitive.size(), 0.0f);
-    bool met[jit::kMaxLanes] = {};
+    std::span<bool> met = making.grid.memory.arena.allocate_span<bool>(padded(making.at.count));
+    std::fill(met.begin(), met.end(), false);
     for (size_t h = 0; h < hits.count; ++h) {
-        const uint32_t lane = rays.slot[hits.ray[h]];
+        const uint32_t point = rays.slot[hits.ray[h]];
         if (!light.has(hits.instance[h])) continue;
-        met[lane] = true;
-        samples.instance[lane] = hits.instance[h];
-        samples.primitive[lane] = hits.primitive[h];
-        samples.u[lane] = hits.u[h];
-        samples.v[lane] = hits.v[h];
+        met[point] = true;
+        samples.instance[point] = hits.instance[h];
+        samples.primitive[point] = hits.primitive[h];
+        samples.u[point] = hits.u[h];
+        samples.v[point] = hits.v[h];
     }
     for (size_t i = 0; i < making.at.count; ++i) samples.density[i] = kernel.sampler.density(i);
     samples.find_points(frame_.pose.accel);
@@ -306,10 +302,9 @@ void LightRecords::lamp_along(Making& making, size_t l, const jit::ServiceCall& 
         const std::span<const float> by_area = kernel.by_area(own, out);
         const std::span<float> density = kernel.densities(own, out);
         scale(own, out, padded(making.at.count), [&](size_t i) {
-            if (i >= jit::kMaxLanes || !met[i] || !kernel.may_light(i)) return 0.0f;
+            if (!met[i] || !kernel.may_light(i)) return 0.0f;
             const float radiance = float(kPi) * by_area[i];
-            return radiance * sample_weight(along_argument(call, kMaterialDensity)[i], density[i],
-                                            along_argument(call, kHeuristic)[i]);
+            return radiance * sample_weight(directions.density[i], density[i], directions.power[i]);
         });
         LightOutputs statement = own;
         std::span<float* const> columns =

@@ -132,15 +132,15 @@ void LightRecords::begin_frame(bool all, ThreadMemory& memory) {
 }
 
 void LightRecords::choose_sampling(ThreadMemory& memory) {
-    for (size_t l = 0; area_lights_.any() && l < frame_.lights.lights.size(); ++l) {
-        const AreaLight* light = area_lights_.find(l);
-        if (!light || !(all_ || bindings_.asked(l))) continue;
-        if (light->emits) {
-            find_powers(frame_, kernels_, memory, *light, powers_);
+    for (size_t l : area_lights_.all()) {
+        const AreaLight& light = *area_lights_.find(l);
+        if (!(all_ || bindings_.asked(l))) continue;
+        if (light.emits) {
+            find_powers(frame_, kernels_, memory, light, powers_);
             area_lights_.weigh(l, powers_);
         }
         area_lights_.sample_by_angle(
-            l, suits_by_angle(frame_, kernels_, memory, *light, l, bindings_.statements(l)));
+            l, suits_by_angle(frame_, kernels_, memory, light, l, bindings_.statements(l)));
     }
 }
 
@@ -542,52 +542,6 @@ void LightRecords::Making::make_room() {
         grid.memory.arena.allocate_span<jit::Record>(2 * records.size() + kMoreRecords);
     std::copy(records.begin(), records.end(), more.begin());
     records = more;
-}
-
-namespace {
-
-// A part of the grid asks: one lane group at its own points. Records of a group that is done are
-// let go, or a marching loop would keep them all. The handle of the call's records.
-uint32_t next_handle(Grid& grid, int32_t first) {
-    Arena& arena = grid.memory.arena;
-    if (grid.record_group != first) {
-        if (grid.record_group >= 0) arena.release(grid.record_mark);
-        grid.record_mark = arena.mark();
-        grid.record_group = first;
-        grid.record_calls = 0;
-    }
-    const uint32_t handle = grid.next_record_set;
-    grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
-    return handle;
-}
-
-}  // namespace
-
-int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
-    const uint32_t handle = next_handle(grid, call.first);
-    if (++grid.record_calls > kMostLightQuestions) {
-        grid.memory.counters.unlit += 1;
-        grid.record_sets[handle] = {};
-    } else {
-        grid.record_sets[handle] = make_records(grid, points_of(grid, call));
-    }
-    return int32_t(handle);
-}
-
-int32_t LightRecords::along(Grid& grid, const jit::ServiceCall& call) {
-    const uint32_t handle = next_handle(grid, call.first);
-    const bool own = grid.lit_points && asks_at(*grid.lit_points, call);
-    const LightPoints at = own ? part_of(*grid.lit_points, call) : points_of(grid, call);
-    Arena& arena = grid.memory.arena;
-    Making making{grid, at, arena.allocate_span<jit::Record>(sampling_.size()),
-                  arena.allocate_span<SentLight>(1)};
-    const Sphere lit = sphere_about(at.P, at.count);
-    for (size_t l : sampling_)
-        if (bindings_.binding(grid.look->index, l).seen && reaches(reaches_[l], lit))
-            record_along(making, l, call);
-    lamps_along(making, call);
-    grid.record_sets[handle] = {int32_t(making.record_count), making.records.data()};
-    return int32_t(handle);
 }
 
 }  // namespace kinora

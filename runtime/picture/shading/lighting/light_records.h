@@ -13,6 +13,7 @@
 namespace kinora {
 
 class CountedSamples;
+struct ChosenDirections;
 
 // What takes light away on its way.
 class LightShadows {
@@ -21,12 +22,6 @@ class LightShadows {
     // Leaves in Cl what arrives at each point, at once or when the caller says so.
     virtual void cast(const Grid& grid, const LightPoints& at, const SentLight& light) = 0;
 };
-
-// Rows of the arguments of the service samplinglights.
-enum AlongArgument { kAlong = 3, kMaterialDensity = 6, kHeuristic = 7 };
-inline const float* along_argument(const jit::ServiceCall& call, int row) {
-    return call.args + row * jit::kMaxLanes;
-}
 
 // L, where its shadow ray ends, Cl and density of a sample.
 using SampleColumnList = std::array<float*, 10>;
@@ -57,6 +52,11 @@ class LightRecords {
     int32_t at(Grid& grid, const jit::ServiceCall& call);
     // The service `samplinglights`: what lights with sample methods send from directions.
     int32_t along(Grid& grid, const jit::ServiceCall& call);
+    // Whether its calls at the grid's points wait for each other; notes of them, before the kernel
+    // runs to say what it asks; their answers, from then on Grid::directions.
+    bool notes_directions(const Grid& grid) const;
+    void start_directions(Grid& grid) const;
+    void answer_directions(Grid& grid);
 
   private:
     // Records of a grid's points, and what of them comes from somewhere.
@@ -98,15 +98,17 @@ class LightRecords {
                     SampleColumnList sample) const;
     void keep_counts(Making& making, size_t light, const float* counts) const;
     // What one light sends from the directions of samplinglights.
-    void record_along(Making& making, size_t light, const jit::ServiceCall& call);
+    jit::RecordSet records_along(Grid& grid, const LightPoints& at,
+                                 const ChosenDirections& directions);
+    void record_along(Making& making, size_t light, const ChosenDirections& directions);
     // Of a light on geometry (area_records.cpp).
     class AreaKernel;
     void area_records(Making& making, size_t light);
     void area_record(Making& making, size_t light, AreaKernel& kernel,
                      const LightOutputs& statement, std::span<float* const> out) const;
     // What lights on geometry send from the directions of samplinglights.
-    void lamps_along(Making& making, const jit::ServiceCall& call);
-    void lamp_along(Making& making, size_t light, const jit::ServiceCall& call,
+    void lamps_along(Making& making, const ChosenDirections& directions);
+    void lamp_along(Making& making, size_t light, const ChosenDirections& directions,
                     const raytrace::RayBatch& rays, const raytrace::HitBatch& hits);
     // Records of solar with an angle: a sample of its cone each, with its share of the light. Where
     // the block reads L, the kernel of `lit` runs again for each.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "runtime/picture/shading/lighting/chosen_directions.h"
 #include "runtime/picture/shading/lighting/counted_samples.h"
 #include "runtime/picture/shading/lighting/light_records.h"
 
@@ -136,12 +137,12 @@ void LightRecords::add_sample(Making& making, size_t l, std::span<float* const> 
 
 // ---- from directions ----------------------------------------------------------------------------
 
-void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall& call) {
+void LightRecords::record_along(Making& making, size_t l, const ChosenDirections& directions) {
     Grid& grid = making.grid;
     LightQuestion question;
     question.wish = rsl::SampleWish::Evaluate;
     question.domain = domain_of(*grid.look);
-    for (int k = 0; k < 3; ++k) question.along[k] = along_argument(call, kAlong + k);
+    std::copy_n(directions.D, 3, question.along);
     const size_t count = making.at.count, points = padded(count);
     LightAnswer answer(question, count, grid.memory.arena);
     LitGrid lit(making, l);
@@ -151,10 +152,9 @@ void LightRecords::record_along(Making& making, size_t l, const jit::ServiceCall
     SampleColumns sample(grid.memory.arena, points);
     for (size_t i = 0; i < points; ++i) {
         const PointSample at(*answer.first(), i, far_);
-        const bool asks = i < count && (call.mask >> i & 1) && at.shines;
-        const float own = along_argument(call, kMaterialDensity)[i],
-                    power = along_argument(call, kHeuristic)[i];
-        const float lights = samples && asks ? samples[size_t(call.first) + i] * at.pdf : 0.0f;
+        const float own = directions.density[i], power = directions.power[i];
+        const bool asks = i < count && own > 0 && at.shines;
+        const float lights = samples && asks ? samples[making.at.first + i] * at.pdf : 0.0f;
         sample.set(i, at.L, asks ? at.Cl * sample_weight(own, lights, power) : vec3(0.0f), lights);
     }
     add_sample(making, l, out, sample.columns());
