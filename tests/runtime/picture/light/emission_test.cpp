@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "runtime/scene/images/image_io.h"
 #include "tests/runtime/picture/light/closed_forms.h"
@@ -206,6 +207,34 @@ TEST(Emission, IsALightOfScenesWithIndirectLightAlone) {
     scene.cube("around", 4).place("around", "glow").place("lamp", "dark");
     EXPECT_EQ(Rendering(scene.text(), with_bounces(0)).scene->lights.size(), 0u);
     EXPECT_EQ(Rendering(scene.text(), with_bounces(1)).scene->lights.size(), 2u);
+}
+
+// A triangle of glTF in that material; how many lights the scene has beside that of --gi.
+size_t lights_of(const std::string& material) {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("kinora_emission_{}.gltf", getpid());
+    std::ofstream(path) << R"({"asset":{"version":"2.0"},
+        "extensionsUsed":["KHR_materials_emissive_strength"],
+        "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+                      "min":[0,0,0],"max":[1,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0,
+        "materials":[{)" << material
+                        << "}]}";
+    auto r = Rendering::of_file(path.string(), with_bounces(1));
+    std::filesystem::remove(path);
+    return r->scene ? r->scene->lights.size() - 1 : 99;
+}
+
+TEST(Emission, OfGltfMaterialsIsALight) {
+    EXPECT_EQ(lights_of(R"("emissiveFactor":[0,0.5,0])"), 1u);
+    EXPECT_EQ(lights_of(R"("emissiveFactor":[1,1,1],"extensions":
+                           {"KHR_materials_emissive_strength":{"emissiveStrength":9}})"),
+              1u);
+    EXPECT_EQ(lights_of(R"("emissiveFactor":[0,0,0])"), 0u);
+    EXPECT_EQ(lights_of(R"("doubleSided":true)"), 0u);
 }
 
 TEST(LightExtremes, EmissionOf0Or1e30OrNoAreaIsThatManyTimesOne) {
