@@ -42,6 +42,7 @@ void LampSampler::see(Arena& arena) {
     spheres_ = arena.allocate_span<SphereLanes>(sphere ? rows : 0);
     rectangles_ = arena.allocate_span<RectangleLanes>(sphere ? 0 : rows);
     std::fill(by_angle_.begin(), by_angle_.end(), uint16_t(0));
+    std::fill(on_way_.begin(), on_way_.end(), uint16_t(0));
     for (size_t i = 0; i < at_.count; ++i) {
         const SolidAngle seen(light_.shape, dvec3(triple(at_.accel, i)));
         density_[i] = LightSamples::kByArea;

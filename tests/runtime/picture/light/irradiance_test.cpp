@@ -60,8 +60,25 @@ SceneText floor_under(const LampMesh& mesh) {
     return scene;
 }
 
+// The rectangle in so many rows of squares, more than are found without rays.
+LampMesh grid_mesh(int rows) {
+    LampMesh mesh;
+    mesh.area = kLampWide * kLampTall;
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < rows; ++j) {
+            const int first = int(mesh.positions.size());
+            for (const dvec2 at :
+                 {dvec2(i, j), dvec2(i, j + 1), dvec2(i + 1, j + 1), dvec2(i + 1, j)})
+                mesh.positions.push_back(
+                    {kLampWide * (at.x / rows - 0.5), kLampTall * (at.y / rows - 0.5), 0});
+            for (int corner : {0, 1, 2, 0, 2, 3}) mesh.triangles.push_back(first + corner);
+        }
+    return mesh;
+}
+
 TEST(LampIrradiance, OfGeometryIsTheClosedForm) {
     expect_shares(floor_under(rectangle_mesh()), "rectangle", rectangle_at);
+    expect_shares(floor_under(grid_mesh(5)), "grid", rectangle_at);
     expect_shares(floor_under(disc_mesh()), "disc", disc_at);
 }
 
