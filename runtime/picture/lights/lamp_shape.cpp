@@ -136,6 +136,19 @@ LampShape sphere_about(std::span<const dvec3> corners, const Extent& extent) {
     return shape.radius - least <= extent.tolerance ? shape : LampShape{};
 }
 
+// The distance of the nearest triangle's plane.
+double inner_radius(std::span<const dvec3> corners, const LampShape& sphere) {
+    double least = sphere.radius;
+    for (size_t t = 0; t < corners.size() / 3; ++t) {
+        const dvec3 normal = across(corners, t);
+        const double length = glm::length(normal);
+        if (length > 0)
+            least = std::min(least,
+                             std::abs(glm::dot(normal, corners[3 * t] - sphere.center)) / length);
+    }
+    return least;
+}
+
 bool cover(std::span<const dvec3> corners, const LampShape& sphere) {
     double area = 0;
     for (size_t t = 0; t < corners.size() / 3; ++t) area += 0.5 * glm::length(across(corners, t));
@@ -155,7 +168,9 @@ LampShape find_lamp_shape(std::span<const dvec3> corners) {
         return shape;
     }
     shape = sphere_about(corners, extent);
-    return shape.kind != LampShape::Kind::Other && cover(corners, shape) ? shape : LampShape{};
+    if (shape.kind == LampShape::Kind::Other || !cover(corners, shape)) return {};
+    shape.inner = inner_radius(corners, shape);
+    return shape;
 }
 
 PlaneFacets facets_of(const LampShape& rectangle, std::span<const dvec3> corners,

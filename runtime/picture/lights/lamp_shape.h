@@ -14,9 +14,9 @@ struct LampShape {
     // Of a rectangle: one corner, unit vectors along the sides from there and their normal.
     dvec3 corner{0.0}, axis[3] = {};
     double side[2] = {};
-    // Of a sphere.
+    // Of a sphere: the corners lie on it, and all triangles outside that of the inner radius.
     dvec3 center{0.0};
-    double radius = 0;
+    double radius = 0, inner = 0;
 };
 
 // `corners`: three for each triangle. Triangles without area do not count. A rectangle and a sphere

@@ -45,6 +45,11 @@ double corner_angle(const Normal& a, const Normal& b) {
     return angle_of(std::sqrt(sine2), -a.along_z * b.along_z);
 }
 
+// 1 - the cosine of a cone's half angle.
+double opening_of(double sine2) {
+    return sine2 / (1 + std::sqrt(1 - sine2));
+}
+
 }  // namespace
 
 SolidAngle::SolidAngle(const LampShape& shape, dvec3 P) {
@@ -95,8 +100,9 @@ void SolidAngle::see_sphere(const LampShape& shape, dvec3 P) {
     axis_[0] = dvec3(1 + sign * z.x * z.x * a, sign * b, -sign * z.x);
     axis_[1] = dvec3(b, sign + z.y * z.y * a, -z.y);
     axis_[2] = z;
-    opening_ = sine2 / (1 + std::sqrt(1 - sine2));
+    opening_ = opening_of(sine2);
     density_ = 1 / (2 * kPi * opening_);
+    sure_ = opening_of(sine2 * shape.inner * shape.inner / (radius * radius)) / opening_;
     near_ = std::max(distance - (1 + kSlack) * radius, 0.5 * (distance - radius));
     far_ = distance + (1 + kSlack) * radius;
 }

@@ -20,6 +20,8 @@ class SolidAngle {
     // Of a sphere: unit vectors in the directions of samples meet it between these distances.
     double near() const { return near_; }
     double far() const { return far_; }
+    // Samples with a u below this are sure to meet the triangles, those above may miss them.
+    double sure() const { return sure_; }
 
   private:
     void see_rectangle(const LampShape& shape, dvec3 P);
@@ -30,7 +32,7 @@ class SolidAngle {
     double x_[2], y_[2], z_, first_, last_, angle_, start_;
     // Of a sphere, as in SphereLanes.
     dvec3 axis_[3];
-    double opening_, near_ = 0, far_ = 0;
+    double opening_, near_ = 0, far_ = 0, sure_ = 0;
 };
 
 }  // namespace kinora

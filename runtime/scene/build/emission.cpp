@@ -52,7 +52,9 @@ bool emits(const SceneDescription& description, const ShaderUse& surface) {
 
 bool emits(const SceneDescription& description, const MaterialUse* use) {
     if (!use || use->material == kNone) return false;
-    std::vector<ShaderUse> layers = description.materials[use->material].surfaces;
+    const MaterialDefinition& material = description.materials[use->material];
+    if (!material.lights.empty()) return false;  // which say what it sends
+    std::vector<ShaderUse> layers = material.surfaces;
     std::string key;
     apply_binds(description, use, layers, key);
     return layers.size() == 1 && emits(description, layers[0]);

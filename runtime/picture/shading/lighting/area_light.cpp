@@ -170,6 +170,8 @@ LightSamples::LightSamples(Arena& arena, size_t count, uint32_t surface) {
     u = take();
     v = take();
     density = take();
+    share = take();
+    std::fill_n(share, rows, 1.0f);
     hits = {};
     hits.count = count;
     hits.geometry = hits.instance = instance.data();

@@ -31,6 +31,7 @@ struct LightSamples {
     // By solid angle, of one sample alone; 0 where a point has no sample.
     static constexpr float kByArea = -1;  // it follows from the area
     float* density;
+    float* share;  // what counts of a sample: of the directions that were tried, those that met
 };
 
 // A light on geometry: its triangles by area, and what they are together.

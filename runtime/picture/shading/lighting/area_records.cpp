@@ -155,7 +155,7 @@ std::span<float> LightRecords::AreaKernel::shares() const {
         if (share[i] == 0 || dense == LightSamples::kByArea) continue;
         const vec3 L = triple(samples.hits.P, point) - triple(at.accel, point);
         const float even = density_by_area(L, triple(samples.hits.Ng, point), area_at(point));
-        share[i] = dense > 0 ? even / (dense * float(count)) : 0.0f;
+        share[i] = dense > 0 ? samples.share[point] * even / (dense * float(count)) : 0.0f;
     }
     return share;
 }

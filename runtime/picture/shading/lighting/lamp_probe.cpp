@@ -94,7 +94,7 @@ Squares squares_of(const AreaLight& light, const LightSamples& samples,
 bool suits_by_angle(const ShadingFrame& frame, const KernelRunner& kernels, ThreadMemory& memory,
                     const AreaLight& light, size_t number,
                     std::span<const LightOutputs> statements) {
-    if (light.shape.kind == LampShape::Kind::Other) return false;
+    if (light.shape.kind == LampShape::Kind::Other || !light.directed) return false;
     if (light.emits) return true;  // one radiance all over, or a texture
     const Arena::Mark mark = memory.arena.mark();
     const Probes probes(memory.arena, light, frame.pose.accel);

@@ -37,10 +37,12 @@ void LampSampler::see(Arena& arena) {
     by_angle_ = arena.allocate_span<uint16_t>(rows);
     on_way_ = arena.allocate_span<uint16_t>(rows);
     rays_ = arena.allocate_span<Ray>(light_.facets.count > 0 ? 0 : rows * kRow);
-    reach_ = arena.allocate_span<vec2>(sphere ? at_.count : 0);
+    at_rim_ = arena.allocate_span<uint16_t>(sphere ? rows : 0);
+    reach_ = arena.allocate_span<vec3>(sphere ? at_.count : 0);
     spheres_ = arena.allocate_span<SphereLanes>(sphere ? rows : 0);
     rectangles_ = arena.allocate_span<RectangleLanes>(sphere ? 0 : rows);
     std::fill(by_angle_.begin(), by_angle_.end(), uint16_t(0));
+    std::fill(on_way_.begin(), on_way_.end(), uint16_t(0));
     for (size_t i = 0; i < at_.count; ++i) {
         const SolidAngle seen(light_.shape, dvec3(triple(at_.accel, i)));
         density_[i] = LightSamples::kByArea;
@@ -48,7 +50,7 @@ void LampSampler::see(Arena& arena) {
         density_[i] = float(seen.density());
         by_angle_[i / kRow] |= uint16_t(1u << i % kRow);
         sphere ? seen.put(spheres_[i / kRow], i % kRow) : seen.put(rectangles_[i / kRow], i % kRow);
-        if (sphere) reach_[i] = vec2(seen.near(), seen.far());
+        if (sphere) reach_[i] = vec3(seen.near(), seen.far(), seen.sure());
     }
 }
 
@@ -70,12 +72,14 @@ void LampSampler::choose(const Grid& lit, SampleNumber sample, LightSamples& sam
             u[j] = double(at.x);
             v[j] = double(at.y);
             samples.density[first + j] = density(point);
+            samples.share[first + j] = 1;
         }
         choose_by_area(first, u, v, samples);
         if (!rectangles_.empty()) choose_on_rectangle(first, u, v, samples);
-        if (!spheres_.empty()) choose_on_sphere(first, u, v);
+        if (!spheres_.empty()) choose_on_sphere(lit, first, u, v, samples);
     }
     if (!rays_.empty()) meet(lit, samples);
+    for (size_t row = 0; row < at_rim_.size(); ++row) on_way_[row] |= at_rim_[row];
     samples.find_points(lit.frame.pose.accel);
 }
 
@@ -125,21 +129,65 @@ void LampSampler::choose_on_rectangle(size_t first, const AngleLanes& u, const A
     }
 }
 
-void LampSampler::choose_on_sphere(size_t first, const AngleLanes& u, const AngleLanes& v) {
-    const uint32_t by_angle = by_angle_[first / kRow];
-    on_way_[first / kRow] = uint16_t(by_angle);
+void LampSampler::choose_on_sphere(const Grid& lit, size_t first, const AngleLanes& u,
+                                   const AngleLanes& v, LightSamples& samples) {
+    const size_t row = first / kRow;
+    const uint32_t by_angle = by_angle_[row];
+    on_way_[row] = at_rim_[row] = 0;
     if (by_angle == 0) return;
     AngleLanes direction[3];
-    angle_kernels().to_spheres(spheres_[first / kRow], u, v, direction);
+    angle_kernels().to_spheres(spheres_[row], u, v, direction);
     for (uint32_t left = by_angle; left; left &= left - 1) {
         const size_t j = size_t(std::countr_zero(left)), i = first + j;
-        rays_[i] = {vec3(direction[0][j], direction[1][j], direction[2][j]),
-                    reach_[i].x,
-                    reach_[i].y,
-                    -1,
-                    kNone,
-                    kNone};
+        const auto bit = uint16_t(1u << j);
+        if (u[j] < double(reach_[i].z)) {
+            const vec3 dir(direction[0][j], direction[1][j], direction[2][j]);
+            rays_[i] = {dir, reach_[i].x, reach_[i].y, -1, kNone, kNone};
+            on_way_[row] |= bit;
+            continue;
+        }
+        const uint32_t seed = raytrace::hash(std::bit_cast<uint32_t>(float(u[j])),
+                                             std::bit_cast<uint32_t>(float(v[j])));
+        if (choose_at_rim(lit, i, seed, samples))
+            at_rim_[row] |= bit;
+        else
+            samples.density[i] = 0;
     }
+}
+
+bool LampSampler::choose_at_rim(const Grid& lit, size_t i, uint32_t seed, LightSamples& samples) {
+    const SphereLanes& row = spheres_[i / kRow];
+    SphereLanes same;
+    AngleLanes u, v, direction[3];
+    for (uint32_t j = 0; j < kRow; ++j) {
+        for (int a = 0; a < 3; ++a)
+            for (int k = 0; k < 3; ++k) same.axis[a][k][j] = row.axis[a][k][i % kRow];
+        same.opening[j] = row.opening[i % kRow];
+        const dvec2 at = raytrace::stratified_sample(j, seed);
+        u[j] = double(reach_[i].z) + (1 - double(reach_[i].z)) * at.x;
+        v[j] = at.y;
+    }
+    angle_kernels().to_spheres(same, u, v, direction);
+    Ray rays[kRow];
+    for (size_t j = 0; j < kRow; ++j)
+        rays[j] = {vec3(direction[0][j], direction[1][j], direction[2][j]),
+                   reach_[i].x,
+                   reach_[i].y,
+                   -1,
+                   kNone,
+                   kNone};
+    raytrace::HitPacket16 found;
+    uint32_t met = find(lit, rays, i, 0, 0xffffu, found);
+    const uint32_t count = uint32_t(std::popcount(met));
+    if (count == 0) return false;
+    for (uint32_t skip = raytrace::hash(seed) % count; skip; --skip) met &= met - 1;
+    const size_t j = size_t(std::countr_zero(met));
+    rays_[i] = rays[j];
+    samples.primitive[i] = found.primitive[j];
+    samples.u[i] = found.u[j];
+    samples.v[i] = found.v[j];
+    samples.share[i] = float(count) / float(kRow);
+    return true;
 }
 
 // ---- rays ---------------------------------------------------------------------------------------
@@ -148,22 +196,40 @@ bool LampSampler::meet(const Grid& lit, LightSamples& samples) {
     bool any = false;
     for (size_t row = 0; row < on_way_.size(); ++row) {
         if (on_way_[row] == 0) continue;
-        meet_sixteen(lit, row * kRow, on_way_[row], samples);
+        meet_sixteen(lit, row * kRow, samples);
         any |= on_way_[row] != 0;
     }
     return any;
 }
 
-void LampSampler::load(size_t first, uint32_t lanes, raytrace::RayPacket16& packet) const {
+void LampSampler::meet_sixteen(const Grid& lit, size_t first, LightSamples& samples) {
+    const uint32_t lanes = on_way_[first / kRow];
+    raytrace::HitPacket16 found;
+    const uint32_t met =
+        find(lit, std::span<Ray, kRow>(&rays_[first], kRow), first, 1, lanes, found);
+    for (uint32_t left = lanes; left; left &= left - 1) {
+        const size_t j = size_t(std::countr_zero(left)), i = first + j;
+        const bool meets = met >> j & 1;
+        samples.density[i] = meets ? density_[i] : 0.0f;
+        if (!meets) continue;
+        samples.primitive[i] = found.primitive[j];
+        samples.u[i] = found.u[j];
+        samples.v[i] = found.v[j];
+    }
+    on_way_[first / kRow] = uint16_t(met);
+}
+
+void LampSampler::load(Row rays, size_t first, size_t step, uint32_t lanes,
+                       raytrace::RayPacket16& packet) const {
     packet.active = lanes;
     packet.passing = true;
     packet.normals = false;
     for (; lanes; lanes &= lanes - 1) {
-        const size_t j = size_t(std::countr_zero(lanes)), i = first + j;
-        const Ray& ray = rays_[i];
-        packet.org_x[j] = at_.accel[0][i];
-        packet.org_y[j] = at_.accel[1][i];
-        packet.org_z[j] = at_.accel[2][i];
+        const size_t j = size_t(std::countr_zero(lanes)), point = first + j * step;
+        const Ray& ray = rays[j];
+        packet.org_x[j] = at_.accel[0][point];
+        packet.org_y[j] = at_.accel[1][point];
+        packet.org_z[j] = at_.accel[2][point];
         packet.dir_x[j] = ray.dir.x, packet.dir_y[j] = ray.dir.y, packet.dir_z[j] = ray.dir.z;
         packet.tnear[j] = ray.near, packet.tfar[j] = ray.far;
         packet.mask[j] = raytrace::kMaskLamp;
@@ -174,20 +240,19 @@ void LampSampler::load(size_t first, uint32_t lanes, raytrace::RayPacket16& pack
     }
 }
 
-// The next triangle of the light on each way; other lamps before it let the ray pass.
-void LampSampler::meet_sixteen(const Grid& lit, size_t first, uint32_t lanes,
-                               LightSamples& samples) {
+uint32_t LampSampler::find(const Grid& lit, std::span<Ray, kAngleLanes> rays, size_t first,
+                           size_t step, uint32_t lanes, raytrace::HitPacket16& found) const {
     const raytrace::Accel& accel = lit.frame.pose.accel;
     raytrace::RayPacket16 packet;
     raytrace::HitPacket16 hits;
-    uint32_t found = 0;
+    uint32_t met = 0;
     for (uint32_t left = lanes, layer = 0; left && layer < kMostMet; ++layer) {
-        load(first, left, packet);
+        load(rays, first, step, left, packet);
         left = accel.intersect16(packet, hits, lit.memory.counters.trace);
-        for (uint32_t met = left; met; met &= met - 1) {
-            const size_t j = size_t(std::countr_zero(met)), i = first + j;
+        for (uint32_t hit = left; hit; hit &= hit - 1) {
+            const size_t j = size_t(std::countr_zero(hit));
             const uint32_t body = accel.body(hits.instance[j]);
-            Ray& ray = rays_[i];
+            Ray& ray = rays[j];
             if (hits.t[j] <= ray.window)
                 ray.passed_last = body;
             else
@@ -196,16 +261,13 @@ void LampSampler::meet_sixteen(const Grid& lit, size_t first, uint32_t lanes,
                        body,    kNone};
             if (hits.instance[j] != light_.surfaces[0]) continue;
             left &= ~(1u << j);
-            found |= 1u << j;
-            samples.primitive[i] = hits.primitive[j];
-            samples.u[i] = hits.u[j];
-            samples.v[i] = hits.v[j];
-            samples.density[i] = density_[i];
+            met |= 1u << j;
+            found.primitive[j] = hits.primitive[j];
+            found.u[j] = hits.u[j];
+            found.v[j] = hits.v[j];
         }
     }
-    for (uint32_t missed = lanes & ~found; missed; missed &= missed - 1)
-        samples.density[first + size_t(std::countr_zero(missed))] = 0;
-    on_way_[first / kRow] = uint16_t(found);
+    return met;
 }
 
 }  // namespace kinora

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "runtime/scene/images/image_io.h"
 #include "tests/runtime/picture/light/closed_forms.h"
@@ -32,7 +33,7 @@ std::string grey_slot(double radiance) {
 }
 
 // A floor within a box of these walls, seen from below the lamp's height.
-SceneText room(const char* floor, const char* walls, double height = kLampHeight) {
+SceneText room_of(const char* floor, const char* walls, double height = kLampHeight) {
     SceneText scene = floor_scene(floor);
     look_from_below(scene, 0.75 * height);
     scene.cube("box", 5).look("walls", walls).place("box", "walls");
@@ -75,7 +76,7 @@ Moments moments_of(const SceneText& scene, const SceneOptions& options, int size
 }
 
 template <class Share>
-void expect_shares(const SceneText& scene, const Share& share, double tolerance) {
+void expect_floor(const SceneText& scene, const Share& share, double tolerance) {
     Rendering r(scene.text(), with_bounces(1, 256));
     EXPECT_EQ(r.findings(), "");
     sample_middles(r, 4);
@@ -86,21 +87,21 @@ void expect_shares(const SceneText& scene, const Share& share, double tolerance)
     }
 }
 
-double rectangle_at(dvec2 p) {
+double panel_at(dvec2 p) {
     const dvec2 corner(kLampWide / 2, kLampTall / 2);
     return rectangle_share(p, -corner, corner, kLampHeight);
 }
 
 TEST(Emission, OfARectangleIsTheClosedForm) {
-    SceneText scene = room(kMatte, kBlack);
+    SceneText scene = room_of(kMatte, kBlack);
     add_emitter(scene, "glow", grey_slot(1));
     place_mesh(scene, rectangle_mesh(), "glow");
-    expect_shares(scene, rectangle_at, 1e-4);
+    expect_floor(scene, panel_at, 1e-4);
 }
 
 // Six panels beside each other, each brighter than the one before.
 SceneText under_panels(double height) {
-    SceneText scene = room(kMatte, kBlack, height);
+    SceneText scene = room_of(kMatte, kBlack, height);
     const LampMesh mesh = rectangle_mesh(0.5, 0.2);
     scene.mesh("lamp", mesh.positions, mesh.triangles, mesh.normals);
     for (int k = 0; k < 6; ++k) {
@@ -121,7 +122,7 @@ double panels_at(dvec2 p, double height) {
 }
 
 TEST(Emission, OfManySurfacesIsTheirSum) {
-    expect_shares(
+    expect_floor(
         under_panels(kLampHeight), [](dvec2 p) { return panels_at(p, kLampHeight); }, 0.01);
 }
 
@@ -142,7 +143,7 @@ TEST(Emission, OfSurfacesNearbyCountsOnceBySamplesAndRays) {
 // The same scene, lit by samples of the material or by rays that meet a surface of RSL as bright.
 TEST(Emission, CountsOnceAndVariesAFifthAsMuch) {
     auto scene_of = [&](bool sampled) {
-        SceneText scene = room(kMatte, kBlack);
+        SceneText scene = room_of(kMatte, kBlack);
         scene.look("shows", "surface shows() { Oi = 1; Ci = 1; }");
         add_emitter(scene, "glow", grey_slot(1));
         place_mesh(scene, rectangle_mesh(), sampled ? "glow" : "shows");
@@ -157,7 +158,7 @@ TEST(Emission, CountsOnceAndVariesAFifthAsMuch) {
 // Light of a large lamp goes on between grey walls: three bounces by both ways.
 TEST(Emission, CountsOnceBehindBounces) {
     auto mean = [&](bool sampled) {
-        SceneText scene = room(kGrey, kGrey);
+        SceneText scene = room_of(kGrey, kGrey);
         scene.look("shows", "surface shows() { Oi = 1; Ci = 1; }");
         add_emitter(scene, "glow", grey_slot(1));
         place_mesh(scene, rectangle_mesh(4, 4), sampled ? "glow" : "shows");
@@ -183,7 +184,7 @@ struct HalfWhite {
 
 TEST(Emission, OfATextureIsThatOfItsTexels) {
     const HalfWhite image;
-    SceneText scene = room(kMatte, kBlack);
+    SceneText scene = room_of(kMatte, kBlack);
     scene.images = "<image id=\"half\"><init_from>" + image.name + "</init_from></image>";
     add_emitter(scene, "glow", "<texture texture=\"half-sampler\" texcoord=\"UV\"/>",
                 "<newparam sid=\"half-surface\"><surface type=\"2D\"><init_from>half</init_from>"
@@ -194,12 +195,12 @@ TEST(Emission, OfATextureIsThatOfItsTexels) {
                "<bind_vertex_input semantic=\"UV\" "
                "input_semantic=\"TEXCOORD\" input_set=\"0\"/>");
     auto share = [](dvec2 p) { return rectangle_share(p, {-0.5, -0.5}, {0, 0.5}, kLampHeight); };
-    expect_shares(scene, share, 0.02);
+    expect_floor(scene, share, 0.02);
 }
 
 // Without indirect light a scene has no such lights, and surfaces that surround it are none.
 TEST(Emission, IsALightOfScenesWithIndirectLightAlone) {
-    SceneText scene = room(kMatte, kBlack);
+    SceneText scene = room_of(kMatte, kBlack);
     add_emitter(scene, "glow", grey_slot(1));
     add_emitter(scene, "dark", grey_slot(0));
     place_mesh(scene, rectangle_mesh(), "glow");
@@ -208,15 +209,43 @@ TEST(Emission, IsALightOfScenesWithIndirectLightAlone) {
     EXPECT_EQ(Rendering(scene.text(), with_bounces(1)).scene->lights.size(), 2u);
 }
 
+// A triangle of glTF in that material; how many lights the scene has beside that of --gi.
+size_t lights_of(const std::string& material) {
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("kinora_emission_{}.gltf", getpid());
+    std::ofstream(path) << R"({"asset":{"version":"2.0"},
+        "extensionsUsed":["KHR_materials_emissive_strength"],
+        "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+                      "min":[0,0,0],"max":[1,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+        "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0,
+        "materials":[{)" << material
+                        << "}]}";
+    auto r = Rendering::of_file(path.string(), with_bounces(1));
+    std::filesystem::remove(path);
+    return r->scene ? r->scene->lights.size() - 1 : 99;
+}
+
+TEST(Emission, OfGltfMaterialsIsALight) {
+    EXPECT_EQ(lights_of(R"("emissiveFactor":[0,0.5,0])"), 1u);
+    EXPECT_EQ(lights_of(R"("emissiveFactor":[1,1,1],"extensions":
+                           {"KHR_materials_emissive_strength":{"emissiveStrength":9}})"),
+              1u);
+    EXPECT_EQ(lights_of(R"("emissiveFactor":[0,0,0])"), 0u);
+    EXPECT_EQ(lights_of(R"("doubleSided":true)"), 0u);
+}
+
 TEST(LightExtremes, EmissionOf0Or1e30OrNoAreaIsThatManyTimesOne) {
     for (double radiance : {0.0, 1e30}) {
-        SceneText scene = room(kMatte, kBlack);
+        SceneText scene = room_of(kMatte, kBlack);
         add_emitter(scene, "glow", grey_slot(radiance));
         place_mesh(scene, rectangle_mesh(), "glow");
-        expect_shares(
-            scene, [&](dvec2 p) { return radiance * rectangle_at(p); }, 1e-4);
+        expect_floor(
+            scene, [&](dvec2 p) { return radiance * panel_at(p); }, 1e-4);
     }
-    SceneText line = room(kMatte, kBlack);
+    SceneText line = room_of(kMatte, kBlack);
     add_emitter(line, "glow", grey_slot(1));
     place_mesh(line, rectangle_mesh(), "glow", "<translate>0 0 2</translate><scale>1 0 1</scale>");
     Rendering r(line.text(), with_bounces(1));

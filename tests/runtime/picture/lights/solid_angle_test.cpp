@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -276,6 +278,32 @@ TEST_P(SolidAngles, OfSpheresAreEvenInTheirCones) {
             EXPECT_NEAR(glm::length(way), 1, 1e-12);
             EXPECT_LE(1 + glm::dot(way, axis), opening * (1 + 1e-6) + 1e-15);
         }
+    }
+}
+
+TEST_P(SolidAngles, HaveTheSameBitsAsThePortableOnes) {
+    const AngleKernels& portable =
+        *usable_angle_kernels().kernels[usable_angle_kernels().count - 1];
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> number(-3, 3), part(0, 1);
+    const LampShape square = find_lamp_shape(grid({-1, -0.3}, {1, 0.3}, 1)),
+                    sphere = find_lamp_shape(ball(8, 16));
+    for (int k = 0; k < 200; ++k) {
+        RectangleLanes rectangles{};
+        SphereLanes spheres{};
+        AngleLanes u, v, here[3], there[3];
+        for (size_t lane = 0; lane < kAngleLanes; ++lane) {
+            const dvec3 P(number(random), number(random), number(random));
+            SolidAngle(square, P).put(rectangles, lane);
+            SolidAngle(sphere, P + 4.0 * glm::normalize(P)).put(spheres, lane);
+            u[lane] = part(random), v[lane] = part(random);
+        }
+        kernels().to_rectangles(rectangles, u, v, here[0], here[1]);
+        portable.to_rectangles(rectangles, u, v, there[0], there[1]);
+        EXPECT_EQ(std::memcmp(here, there, 2 * sizeof(AngleLanes)), 0);
+        kernels().to_spheres(spheres, u, v, here);
+        portable.to_spheres(spheres, u, v, there);
+        EXPECT_EQ(std::memcmp(here, there, sizeof(here)), 0);
     }
 }
 
