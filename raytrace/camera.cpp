@@ -178,4 +178,13 @@ CameraRay camera_ray(const Camera& camera, double x, double y) {
     return ray;
 }
 
+std::optional<dvec2> raster_position(const Camera& camera, const dvec3& point) {
+    const dvec3 from_eye = point - camera.eye;
+    const double depth = dot(from_eye, camera.forward);
+    if (!(depth > 0)) return {};
+    const double scale = camera.orthographic ? 1 : 1 / depth;
+    auto along = [&](const dvec3& step) { return scale * dot(from_eye, step) / dot(step, step); };
+    return camera.axis + dvec2(along(camera.raster_dx), along(camera.raster_dy));
+}
+
 }  // namespace kinora::raytrace

@@ -86,4 +86,8 @@ struct CameraRay {
 };
 CameraRay camera_ray(const Camera& camera, double x, double y);
 
+// The raster position at which a point is seen, accel space; nothing of a point that is not before
+// the camera.
+std::optional<dvec2> raster_position(const Camera& camera, const dvec3& point);
+
 }  // namespace kinora::raytrace

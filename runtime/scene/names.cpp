@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "runtime/scene/description/play_range.h"
+
 namespace kinora {
 
 const std::string& shown_name(const std::string& id, const std::string& name) {
@@ -29,6 +31,11 @@ std::string material_name(const SceneDescription& description, uint32_t material
     if (material == kNone) return "default";
     const MaterialDefinition& of = description.materials[material];
     return shown_name(of.id, of.name);
+}
+
+double frames_per_second(const SceneResources& scene) {
+    const double asked = scene.options.frame_rate;
+    return asked > 0 ? asked : play_range(*scene.description).rate;
 }
 
 uint32_t object_id(const SceneShapes& shapes, const Surface& surface) {

@@ -25,6 +25,9 @@ std::string material_name(const SceneDescription& description, uint32_t material
 uint32_t object_id(const SceneShapes& shapes, const Surface& surface);
 uint32_t material_id(const Surface& surface);
 
+// The options' frames a second, else the file's.
+double frames_per_second(const SceneResources& scene);
+
 // A number with its name.
 struct IdName {
     uint32_t id = 0;

@@ -25,6 +25,7 @@ struct Scene;
 struct SceneResources;
 struct SceneShapes;
 struct Shape;
+struct NeighbourPoses;
 class Shading;       // runtime/picture/shading/shading.h
 struct VertexState;  // runtime/scene/vertices/vertex_work.h
 
@@ -94,7 +95,15 @@ struct Pose {
     raytrace::IntegratorScratch scratch;
     std::shared_ptr<Shading> shading;
     Reported reported;
-    uint32_t watch_dark = 0;  // frames left of Scene::watch_dark
+    uint32_t watch_dark = 0;                     // frames left of Scene::watch_dark
+    std::shared_ptr<NeighbourPoses> neighbours;  // of a picture with an AOV of motion
+};
+
+// The scene a frame before a pose and a frame after it. They have no trees.
+struct NeighbourPoses {
+    explicit NeighbourPoses(const Scene& scene) : before(scene), after(scene) {}
+    Pose before, after;
+    bool before_seen = false, after_seen = false;  // their cameras make pictures
 };
 
 // Gives what a shape of that mesh stands in its room; what stood there goes.

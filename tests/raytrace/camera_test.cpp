@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 namespace kinora::raytrace {
@@ -131,6 +132,29 @@ TEST(Camera, DifferentialsPredictTheNeighbouringRays) {
                 EXPECT_NEAR(here.ddir_dx[k], right.dir[k] - left.dir[k], 1e-6);
                 EXPECT_NEAR(here.ddir_dy[k], down.dir[k] - up.dir[k], 1e-6);
             }
+        }
+}
+
+TEST(Camera, RasterPositionsAreWhereRaysGo) {
+    for (bool orthographic : {false, true})
+        for (double mirror : {1.0, -1.0}) {
+            CameraOptics optics;
+            optics.orthographic = orthographic;
+            optics.window = {{-0.7 * mirror, 1.1 * mirror, -0.4, 0.9}};
+            dmat4 node = glm::rotate(dmat4(1.0), 0.7, dvec3(1, 2, 3));
+            node[3] = dvec4(3, -2, 5, 1);
+            Camera camera;
+            ASSERT_EQ(make_camera(optics, node, 40, 25, dvec3(1, 1, 1), 10, camera),
+                      CameraStatus::ClipRangeRepaired);
+            for (const dvec2& at : {dvec2(3.5, 7.25), dvec2(39, 0.5), dvec2(-12, 80)})
+                for (double t : {0.5, 30.0}) {
+                    const CameraRay ray = camera_ray(camera, at.x, at.y);
+                    const auto place = raster_position(camera, dvec3(ray.org) + t * dvec3(ray.dir));
+                    ASSERT_TRUE(place);
+                    EXPECT_NEAR(place->x, at.x, 1e-3);
+                    EXPECT_NEAR(place->y, at.y, 1e-3);
+                    EXPECT_FALSE(raster_position(camera, dvec3(ray.org) - t * dvec3(ray.dir)));
+                }
         }
 }
 

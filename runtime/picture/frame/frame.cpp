@@ -7,6 +7,7 @@
 #include "runtime/base/check.h"
 #include "runtime/base/parallel.h"
 #include "runtime/base/stats.h"
+#include "runtime/picture/frame/neighbours_p.h"
 #include "runtime/picture/frame/planes_p.h"
 #include "runtime/picture/frame/report_p.h"
 #include "runtime/scene/camera.h"
@@ -144,9 +145,7 @@ bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings
         pose.shutter = settings.shutter;
         update_transforms(scene, pose);
     }
-    raytrace::CameraStatus camera =
-        settings.camera ? set_view(scene, pose, *settings.camera, settings.width, settings.height)
-                        : set_view(scene, pose, settings.width, settings.height);
+    const raytrace::CameraStatus camera = set_frame_view(scene, pose, settings);
     if (!report_camera(scene, pose, camera, diagnostics)) return false;
     {
         StageTimer timer(stats.skin);
@@ -163,6 +162,11 @@ bool pose_frame(const Scene& scene, Pose& pose, double time, const FrameSettings
             if (const Shape& shape = scene.shapes[s]; shape.vertex_work)
                 shape.vertex_work->report(mesh_of(scene, shape), *pose.shapes[s].vertex_state,
                                           diagnostics);
+    }
+    {
+        StageTimer timer(stats.skin);
+        StageScope stage(Stage::Skin);
+        pose_neighbours(scene, pose, time, settings);
     }
     {
         StageTimer timer(stats.refit);

@@ -14,6 +14,7 @@ raytrace::AovOrigin origin_of(AovSource source) {
         case AovSource::Surface:
         case AovSource::Object:
         case AovSource::Material:
+        case AovSource::Motion:
             return raytrace::AovOrigin::Surface;
         case AovSource::Samples:
             return raytrace::AovOrigin::Samples;

@@ -12,6 +12,7 @@
 #include "runtime/base/files/build_id.h"
 #include "runtime/base/files/content_hash.h"
 #include "runtime/base/regular_file.h"
+#include "runtime/scene/aovs/aovs.h"
 #include "runtime/scene/description/texture_name.h"
 #include "runtime/scene/quality/knobs.h"
 
@@ -106,6 +107,10 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
         for (const auto& [what, value] : *changes) text += fmt::format(" {}={}", what, value);
     if (o.frame_target.any())
         text += fmt::format(" {} {}", target_text(o.frame_target), o.fixed_settings);
+    const bool motion = std::ranges::any_of(o.aovs, [](const std::string& aov) {
+        return aov.starts_with("motion") || aov.starts_with(kAllAovs);
+    });
+    if (motion) text += fmt::format(" motion at {}", rate);
     if (o.session) text += session_text(*o.session);
     ContentHash hash;
     hash.add_text(text);

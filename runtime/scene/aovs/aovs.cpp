@@ -27,6 +27,9 @@ constexpr AovRow kRows[] = {
     {"id", "", Surface, "", AovFilter::Nearest, 0, "number of the node's part with one material"},
     {"object_id", "", Object, "", AovFilter::Nearest, 0, "number of the node"},
     {"material_id", "", Material, "", AovFilter::Nearest, 0, "number of the material"},
+    {"motion", "next.x next.y previous.x previous.y", Motion, "", AovFilter::Nearest, 0,
+     "pixels to the place in the next frame, and from that in the previous one; x to the right, y "
+     "up"},
     {"samples", "", Samples, "", AovFilter::Mean, 0, "samples of the pixel"},
     {"variance", "R G B", Variance, "", AovFilter::Mean, 0,
      "variance of the samples' colors; 0 with one sample"},

@@ -20,6 +20,7 @@ enum class AovSource : uint8_t {
     Surface,
     Object,
     Material,
+    Motion,
     Samples,  // numbers of a pixel
     Variance,
     Cost,

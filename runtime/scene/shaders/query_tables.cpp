@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "runtime/base/numbers.h"
-#include "runtime/scene/description/play_range.h"
+#include "runtime/scene/names.h"
 #include "runtime/scene/nodes.h"
 #include "runtime/scene/pose.h"
 #include "runtime/scene/shaders.h"
@@ -143,9 +143,7 @@ Fact clipping(const Asker& asker) {
     return {asker.pose.view.znear, asker.pose.view.zfar};
 }
 Fact frame(const Asker& asker) {
-    double asked = asker.nodes.options.frame_rate;
-    double rate = asked > 0 ? asked : play_range(*asker.nodes.description).rate;
-    return std::round(asker.pose.time * rate);
+    return std::round(asker.pose.time * frames_per_second(asker.nodes));
 }
 Fact projection(const Asker& asker) {
     return std::string_view(asker.pose.view.orthographic ? "orthographic" : "perspective");
