@@ -39,11 +39,14 @@ enum class AovOrigin : uint8_t {
 struct AovPlane {
     std::string name;
     AovFilter filter = AovFilter::Mean;
-    std::vector<float> values;  // width * height, rows from the top
-    bool in_file = true;        // false: for imagers and displays
-    float background = 0;       // where the filter has no sample; Mean: always 0
+    std::vector<float> values = {};  // width * height, rows from the top
+    bool in_file = true;             // false: for imagers and displays
+    float background = 0;            // where the filter has no sample; Mean: always 0
     AovOrigin origin = AovOrigin::Surface;
-    int component = 0;  // of the colour that a variance is of
+    int component = 0;       // of the colour that a variance is of
+    std::string layer = {};  // the AOV that it is a channel of; "": one of its own
+    bool half = false;       // in a file
+    bool exact = false;      // not a digit may go in a file
 };
 
 // Linear, associated ("premultiplied") RGBA: alpha is coverage, the mean of Oi's components.

@@ -254,7 +254,7 @@ std::shared_ptr<SceneInfo> scene_info(const Scene& scene, const SceneRead& read,
     info->materials = material_infos(scene, read);
     std::vector<raytrace::AovPlane> planes;
     for (const OutputPlane& plane : scene.outputs)
-        planes.push_back({plane.name, raytrace::AovFilter::Mean, {}, plane.in_file});
+        planes.push_back({.name = plane.name, .values = {}, .in_file = plane.in_file});
     info->aovs = shown_names(planes);
     for (double time : anim::key_times(description.animation))
         info->keys.push_back(time * rate.value());

@@ -24,6 +24,8 @@ struct OutputPlane {
     AovSource source = AovSource::Kernel;
     raytrace::AovFilter filter = raytrace::AovFilter::Mean;
     float background = 0;
+    bool half = false;   // in a file
+    bool exact = false;  // not a digit may go in a file
 };
 
 struct SceneShaders {

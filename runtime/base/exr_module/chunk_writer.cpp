@@ -2,6 +2,7 @@
 // are compressed already. OpenEXR's C++ library knows no other compressor than zlib.
 #include <openexr.h>
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -42,6 +43,16 @@ void predict(const std::vector<uint8_t>& raw, std::vector<uint8_t>& out) {
     if (count > 1) odd[0] = uint8_t(from[1] - from[2 * evens - 2] + 128);
     for (size_t k = 1; k < count - evens; ++k)
         odd[k] = uint8_t(from[2 * k + 1] - from[2 * k - 1] + 128);
+}
+
+// SMPTE 12M, as OpenEXR's timeCode packs it: digits of frame, second, minute and hour, a byte each.
+uint32_t time_code_bits(const double* hours_to_frame) {
+    uint32_t bits = 0;
+    for (int k = 0; k < 4; ++k) {
+        const auto number = uint32_t(hours_to_frame[k]);
+        bits = bits << 8 | number / 10 << 4 | number % 10;
+    }
+    return bits;
 }
 
 class ChunkWriter final : public KinoraExrWriter {
@@ -97,7 +108,38 @@ class ChunkWriter final : public KinoraExrWriter {
                                  EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
         for (int i = 0; i < picture.texts; ++i)
             must(exr_attr_set_string(context_, part, picture.text[i].key, picture.text[i].value));
+        for (int i = 0; i < picture.attributes; ++i) set_attribute(part, picture.attribute[i]);
         must(exr_write_header(context_));
+    }
+
+    void set_attribute(int part, const KinoraExrAttribute& attribute) {
+        const double* n = attribute.numbers;
+        switch (attribute.type) {
+            case kKinoraExrRational: {
+                const exr_attr_rational_t value{int32_t(n[0]), uint32_t(n[1])};
+                must(exr_attr_set_rational(context_, part, attribute.key, &value));
+                break;
+            }
+            case kKinoraExrTimeCode: {
+                const exr_attr_timecode_t value{time_code_bits(n), 0};
+                must(exr_attr_set_timecode(context_, part, attribute.key, &value));
+                break;
+            }
+            case kKinoraExrMatrix: {
+                exr_attr_m44f_t value;
+                std::copy_n(n, 16, value.m);
+                must(exr_attr_set_m44f(context_, part, attribute.key, &value));
+                break;
+            }
+            case kKinoraExrChromaticities: {
+                float value[8];
+                std::copy_n(n, 8, value);
+                const exr_attr_chromaticities_t primaries{value[0], value[1], value[2], value[3],
+                                                          value[4], value[5], value[6], value[7]};
+                must(exr_attr_set_chromaticities(context_, part, attribute.key, &primaries));
+                break;
+            }
+        }
     }
 
     void write_chunk() {

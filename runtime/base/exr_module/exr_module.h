@@ -33,16 +33,38 @@ struct KinoraExrSee {
     void (*see)(void* state, const void* bytes, size_t count);  // null: nobody does
 };
 
-// RGBA by halves or floats, and planes as float channels; linear, associated, ZIP.
+enum KinoraExrType {
+    kKinoraExrRational,       // a numerator and a denominator
+    kKinoraExrTimeCode,       // hours, minutes, seconds, frame
+    kKinoraExrMatrix,         // 16 numbers of a matrix behind row vectors, row by row
+    kKinoraExrChromaticities  // x and y of red, green, blue and white
+};
+
+// What a header says in numbers.
+struct KinoraExrAttribute {
+    const char* key;
+    enum KinoraExrType type;
+    double numbers[16];
+};
+
+// RGBA by halves or floats, and planes as channels; linear, associated.
 struct KinoraExrPicture {
     int width, height;
     int half;  // RGBA are halves
     int planes;
     const char* const* plane_names;  // with `planes` members: ...
     const int* plane_in_file;        // ... 0: only its name is taken
+    const int* plane_half;           // ... not 0: halves
+    const int* plane_exact;          // ... not 0: with ZIP, if the part is its own
+    const char* const* plane_part;   // ... the part of the file; null: all are in one
+    int compression;                 // Imf::Compression
+    double level;                    // of ZIP and DWA; below 0: the usual one
+    int attributes;
+    const KinoraExrAttribute* attribute;
     int texts;
     const KinoraExrText* text;
-    KinoraExrCompressor compressor;  // stays while the picture is written; none: OpenEXR's zlib
+    KinoraExrCompressor compressor;  // of ZIP in one part; stays while the picture is written;
+                                     // none: OpenEXR's zlib
     KinoraExrSee see;
 };
 

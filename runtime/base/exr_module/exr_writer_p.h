@@ -23,6 +23,8 @@ struct ExrChannel {
     bool half;  // else floats
     int color;  // 0 to 3 of RGBA, where `plane` is -1
     int plane;
+    std::string part;  // of the file
+    bool exact = false;
 };
 
 // In the order of the file, which is that of their names. A parameter that is called like a channel
@@ -53,7 +55,10 @@ class RowBytes {
              std::vector<uint8_t>& bytes) {
         if (half_) halves_.take(rgba + 4 * row * width_, 4 * width_);
         for (const ExrChannel& channel : channels_) {
-            if (channel.plane >= 0)
+            if (channel.plane >= 0 && channel.half) {
+                plane_halves_.take(planes[channel.plane] + row * width_, width_);
+                add_numbers(plane_halves_.data(), 1, bytes);
+            } else if (channel.plane >= 0)
                 add_numbers(planes[channel.plane] + row * width_, 1, bytes);
             else if (half_)
                 add_numbers(halves_.data() + channel.color, 4, bytes);
@@ -76,9 +81,13 @@ class RowBytes {
     size_t width_;
     bool half_;
     std::vector<ExrChannel> channels_;
-    Halves halves_;  // of a row
+    Halves halves_, plane_halves_;  // of a row
 };
 
+// Writes by OpenEXR's own means, whatever the picture's compression and parts.
+std::unique_ptr<KinoraExrWriter> library_writer(std::FILE* file, const char* path,
+                                                const KinoraExrPicture& picture,
+                                                std::vector<ExrChannel> channels);
 // Writes chunks that the picture's compressor made.
 std::unique_ptr<KinoraExrWriter> chunk_writer(std::FILE* file, const char* path,
                                               const KinoraExrPicture& picture,

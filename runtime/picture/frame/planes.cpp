@@ -27,7 +27,8 @@ raytrace::AovOrigin origin_of(AovSource source) {
 }
 
 bool is_same(const raytrace::AovPlane& a, const OutputPlane& b) {
-    return a.name == b.name && a.filter == b.filter && a.origin == origin_of(b.source);
+    return a.name == b.name && a.filter == b.filter && a.origin == origin_of(b.source) &&
+           a.half == b.half;
 }
 
 }  // namespace
@@ -41,6 +42,9 @@ void prepare_planes(const SceneShaders& scene, raytrace::Film& film) {
         made.background = plane.background;
         made.origin = origin_of(plane.source);
         made.component = int(plane.component);
+        made.layer = plane.layer;
+        made.half = plane.half;
+        made.exact = plane.exact;
     }
 }
 

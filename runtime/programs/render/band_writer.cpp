@@ -26,7 +26,7 @@ bool BandWriter::take(const raytrace::Film& band) {
     if (band.top == 0) {
         file_.emplace();
         frame_.error =
-            file_->begin(frame_.file, band, height_, frame_.color, frame_.texts, frame_.depth);
+            file_->begin(frame_.file, band, height_, frame_.color, frame_.texts, frame_.format);
     }
     if (frame_.error.empty()) frame_.error = file_->write(band);
     frame_.number = file_->number();

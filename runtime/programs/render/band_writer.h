@@ -17,6 +17,10 @@ int band_rows(int width, int height, int tile);
 class BandWriter {
   public:
     // A frame without a file is only rendered.
+    // Before the first band: what its header is to say.
+    void describe(std::vector<ExrAttribute> attributes) {
+        frame_.format.attributes = std::move(attributes);
+    }
     void start(WrittenFrame frame, int height);
     // The next band, from the top; false once something could not be written.
     bool take(const raytrace::Film& band);

@@ -111,6 +111,10 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
         return aov.starts_with("motion") || aov.starts_with(kAllAovs);
     });
     if (motion) text += fmt::format(" motion at {}", rate);
+    if (o.exr.parts || o.exr.compression)
+        text += fmt::format(" parts {} compression {}:{}", o.exr.parts,
+                            o.exr.compression ? o.exr.compression->name : "zip", o.exr.level);
+    if (!o.owner.empty()) text += fmt::format(" owner {}", o.owner);
     if (o.session) text += session_text(*o.session);
     ContentHash hash;
     hash.add_text(text);

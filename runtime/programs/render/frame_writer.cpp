@@ -21,7 +21,7 @@ WrittenFrame write(WrittenFrame frame) {
     }
     if (frame.error.empty())
         frame.error = write_image(frame.file, frame.film, frame.color, frame.texts, &frame.number,
-                                  frame.depth);
+                                  frame.format);
     frame.ms = watch.ms();
     return frame;
 }

@@ -16,7 +16,7 @@ struct WrittenFrame {
     size_t record = 0;  // the caller's number of the frame
     std::string file;
     ColorEncoding color = ColorEncoding::Srgb;
-    PictureDepth depth = PictureDepth::Half;
+    ExrFormat format = {};
     ImageTexts texts;
     raytrace::Film film;
     std::vector<DisplayFile> displays = {};  // beside it

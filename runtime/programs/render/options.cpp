@@ -11,6 +11,7 @@
 #include "runtime/kinora/open_scene.h"
 #include "runtime/programs/common/command_line.h"
 #include "runtime/programs/common/list_scene.h"
+#include "runtime/programs/render/exr_options.h"
 #include "runtime/programs/render/quality_options.h"
 #include "runtime/programs/render/session_words.h"
 #include "runtime/programs/render/trade_options.h"
@@ -100,13 +101,15 @@ struct Given {
     bool overwrite = false;
     std::string stats, progress, session;
     TradeGiven trade;
+    ExrGiven exr;
 };
 
 // Which pictures are written.
-void declare_output(CLI::App& app, RenderOptions& o) {
+void declare_output(CLI::App& app, Given& given, RenderOptions& o) {
     app.add_option("-o,--output", o.output,
                    "file; with a frame token (#### or %04d) for several frames; .png or .exr; null "
                    "renders and writes nothing");
+    declare_exr(app, given.exr, o);
 }
 
 // What is rendered and by what.
@@ -269,6 +272,7 @@ void interpret_changes(const Given& given, RenderOptions& o) {
 
 void interpret_output(const Given& given, RenderOptions& o) {
     interpret_trade(given.trade, o);
+    interpret_exr(given.exr, o);
     bool nothing = o.list.empty() && o.output.empty() && o.contact_sheet.empty() &&
                    o.dump.empty() && o.explain.empty() && o.tradeoff.empty();
     if (nothing && is_regular_file(o.scene))  // else what is wrong with the scene is told
@@ -369,7 +373,7 @@ std::optional<int> refuse_session(const std::string& program, const std::string&
 std::optional<int> parse_render_options(int argc, char** argv, RenderOptions& o) {
     CLI::App app("kinora-render: COLLADA scenes with RSL shaders to pictures", "kinora-render");
     Given given;
-    declare_output(app, o);
+    declare_output(app, given, o);
     declare_scene(app, given, o);
     declare_run(app, given, o);
     std::vector<std::string> words = words_of(argc, argv);

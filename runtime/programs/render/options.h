@@ -22,6 +22,9 @@ struct RenderOptions : SceneRequest {
     FindingOptions findings;
     std::string output;
     bool discard = false;  // -o null: pictures are rendered and not written
+    ExrFormat exr;         // but for its depth, which is a setting of quality
+    std::string owner;     // for the header
+    bool stamp = false;    // the header has the time and the machine
     std::string contact_sheet;
     std::string tradeoff;  // folder
     double budget = 120;   // seconds

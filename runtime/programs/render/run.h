@@ -58,6 +58,7 @@ class Render {
     bool keep_existing(const std::string& file, const std::string& print);
     void end_write();
     int end_bands(FrameRecord& record, bool whole);
+    std::vector<ExrAttribute> attributes(int64_t frame);
     ImageTexts header_texts(const std::string& print) const;
     int one_frame(int64_t frame, double time, size_t index);
     bool picture(FrameRecord& record, double time, const raytrace::Progress& progress);

@@ -9,7 +9,9 @@
 #include "runtime/base/files/temporary_file.h"
 #include "runtime/base/parallel.h"
 #include "runtime/kinora/aov_texts.h"
+#include "runtime/kinora/frame_attributes.h"
 #include "runtime/programs/common/exit_codes.h"
+#include "runtime/programs/render/exr_options.h"
 #include "runtime/programs/render/fingerprint.h"
 #include "runtime/programs/render/stop_signal.h"
 #include "runtime/scene/description/findings.h"
@@ -76,9 +78,14 @@ bool Render::keep_existing(const std::string& file, const std::string& print) {
     return image.has_value();
 }
 
+std::vector<ExrAttribute> Render::attributes(int64_t frame) {
+    return frame_attributes(scene_.scene(), scene_.pose(), scene_.rate(), frame);
+}
+
 // With the checksum last, which a picture that lacks an asset goes without.
 ImageTexts Render::header_texts(const std::string& print) const {
     ImageTexts texts{{"Software", "kinora " KINORA_VERSION}, {"kinora/fingerprint", print}};
+    for (auto& text : stamp_texts(options_)) texts.push_back(std::move(text));
     for (auto& text : aov_texts(scene_.scene())) texts.push_back(std::move(text));
     texts.emplace_back(kChecksumText, "");
     return texts;
@@ -116,7 +123,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     WrittenFrame to_write{.record = number,
                           .file = record.file,
                           .color = encoding_of(options_),
-                          .depth = options_.quality.depth,
+                          .format = exr_format(options_),
                           .texts = header_texts(print),
                           .film = {},
                           .displays = displays,
@@ -139,6 +146,7 @@ int Render::one_frame(int64_t frame, double time, size_t index) {
     if (printer_.lacks_assets()) return kExitMissingAsset;  // textures are read when seen
     if (wants_file && !in_bands) {
         if (printer_.misses_assets()) to_write.texts.pop_back();
+        to_write.format.attributes = attributes(frame);
         to_write.film = std::exchange(film_, std::move(spare_film_));
         writer_.start(std::move(to_write), thread_count() > 1);
         if (thread_count() == 1) end_write();
@@ -206,6 +214,11 @@ bool Render::list_frames() {
 }
 
 int Render::frames() {
+    if (loses_digits(options_, scene_.scene())) {
+        scene_.diagnostics().report(Code::AOV_LOSSY, Location{}, options_.exr.compression->name);
+        flush_findings();
+        return kExitUsage;
+    }
     catch_signals();
     if (!list_frames()) return kExitUsage;
     if (int code = ready_folders()) return code;
@@ -226,7 +239,10 @@ int Render::frames() {
     if (options_.contact_sheet.empty() && !options_.frame_target.any() && !kept &&
         displays_of(options_.output).empty()) {
         settings.band_rows = band_rows(settings.width, settings.height, settings.integrator.tile);
-        settings.on_band = [this](const raytrace::Film& band) { return bands_.take(band); };
+        settings.on_band = [this](const raytrace::Film& band) {
+            if (band.top == 0) bands_.describe(attributes(records_.back().frame));
+            return bands_.take(band);
+        };
     }
     progress_ = ProgressReport(options_.progress, list_.size());
     const bool all = all_frames();

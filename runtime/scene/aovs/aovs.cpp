@@ -71,12 +71,27 @@ std::string_view word_of(AovFilter filter) {
     return std::ranges::find(kFilters, filter, &FilterWord::filter)->word;
 }
 
+bool is_exact(const AovRow& row) {
+    return row.source == Surface || row.source == Object || row.source == Material;
+}
+
 std::optional<WantedAov> parse_aov(std::string_view text) {
-    const size_t colon = text.rfind(':');
-    if (colon == text.npos) return WantedAov{std::string(text), {}};
-    const auto* found = std::ranges::find(kFilters, text.substr(colon + 1), &FilterWord::word);
-    if (found == std::end(kFilters)) return {};
-    return WantedAov{std::string(text.substr(0, colon)), found->filter};
+    const size_t name = std::min(text.find(':'), text.size());
+    WantedAov wanted{.name = std::string(text.substr(0, name))};
+    for (std::string_view rest = text.substr(name); !rest.empty();) {
+        const std::string_view word = rest.substr(1, rest.find(':', 1) - 1);
+        rest.remove_prefix(1 + word.size());
+        const auto* found = std::ranges::find(kFilters, word, &FilterWord::word);
+        if (found != std::end(kFilters))
+            wanted.filter = found->filter;
+        else if (word == "half" || word == "float")
+            wanted.half = word == "half";
+        else
+            return {};
+    }
+    const AovRow* row = find_aov_row(wanted.name);
+    if (wanted.half && row && is_exact(*row)) return {};
+    return wanted;
 }
 
 std::string aov_table() {

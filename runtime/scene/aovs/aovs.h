@@ -42,18 +42,22 @@ const AovRow* find_aov_row(std::string_view name);  // null: there is none
 // The words of a text that spaces part: AovRow::channels and outputs.
 std::vector<std::string> parted_words(std::string_view text);
 
+// Whether a number of the row stands for a name, so that no digit of it may go.
+bool is_exact(const AovRow& row);
+
 // The word of a filter: "filter", "average", "nearest", "min", "max".
 std::string_view word_of(raytrace::AovFilter filter);
 
 // "all": every row and every output of the scene's shaders.
 inline constexpr std::string_view kAllAovs = "all";
 
-// NAME or NAME:FILTER.
+// NAME, and behind colons a filter, or half or float.
 struct WantedAov {
     std::string name;
-    std::optional<raytrace::AovFilter> filter;  // nothing: the row's, or the mean
+    std::optional<raytrace::AovFilter> filter = {};  // nothing: the row's, or the mean
+    bool half = false;
 };
-// Nothing where the filter is none.
+// Nothing where a word behind a colon is none of these, or a row that is_exact() shall be half.
 std::optional<WantedAov> parse_aov(std::string_view text);
 
 // The rows as a table of Markdown.

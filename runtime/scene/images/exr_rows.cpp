@@ -2,6 +2,7 @@
 #define IMATH_HALF_NO_LOOKUP_TABLE  // which would be in its library
 #include <half.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -22,17 +23,51 @@ void add_to_hash(void* hash, const void* bytes, size_t count) {
     static_cast<ContentHash*>(hash)->add(bytes, count);
 }
 
-// Over kNoChecksum in the header. Where that is not found the file has no checksum.
+// Over kNoChecksum in the header, which names of ids may make long. Where that is not found the
+// file has no checksum.
 void put_checksum(std::FILE* file, const std::string& digits) {
-    constexpr size_t kMostHeader = 1 << 20;
-    std::string head(kMostHeader, '\0');
-    std::fseek(file, 0, SEEK_SET);
-    head.resize(std::fread(head.data(), 1, head.size(), file));
-    const size_t name = head.find(std::string(kChecksumText) + '\0');
-    const size_t at = name == head.npos ? name : head.find(kNoChecksum, name);
+    std::string head;
+    size_t at = head.npos;
+    for (size_t most = 1 << 20; at == head.npos; most *= 4) {
+        std::fseek(file, 0, SEEK_SET);
+        head.resize(most);
+        head.resize(std::fread(head.data(), 1, head.size(), file));
+        const size_t name = head.find(std::string(kChecksumText) + '\0');
+        at = name == head.npos ? name : head.find(kNoChecksum, name);
+        if (head.size() < most) break;
+    }
     std::fseek(file, at == head.npos ? 0 : long(at), at == head.npos ? SEEK_END : SEEK_SET);
     if (at != head.npos) std::fwrite(digits.data(), 1, digits.size(), file);
 }
+
+const ExrCompression& kUsual = *std::ranges::find(exr_compressions(), "zip", &ExrCompression::name);
+
+std::vector<KinoraExrAttribute> attributes_of(const ExrFormat& format) {
+    std::vector<KinoraExrAttribute> attributes;
+    for (const ExrAttribute& from : format.attributes) {
+        KinoraExrAttribute& to = attributes.emplace_back();
+        to.key = from.key.c_str();
+        to.type = KinoraExrType(from.type);
+        std::ranges::copy(from.numbers, to.numbers);
+    }
+    return attributes;
+}
+static_assert(int(ExrValue::Chromaticities) == kKinoraExrChromaticities);
+
+// The planes of a film as columns of KinoraExrPicture.
+struct Planes {
+    explicit Planes(const raytrace::Film& film) {
+        for (const raytrace::AovPlane& plane : film.aovs) {
+            names.push_back(plane.name.c_str());
+            in_file.push_back(plane.in_file);
+            half.push_back(plane.half);
+            exact.push_back(plane.exact);
+            parts.push_back(plane.layer.empty() ? plane.name.c_str() : plane.layer.c_str());
+        }
+    }
+    std::vector<const char*> names, parts;
+    std::vector<int> in_file, half, exact;
+};
 
 class ExrRowsToFile final : public RowWriter {
   public:
@@ -44,29 +79,34 @@ class ExrRowsToFile final : public RowWriter {
     }
 
     std::string begin(const std::string& path, const raytrace::Film& film, int height,
-                      PictureDepth depth, const ImageTexts& texts, int& number) {
+                      const ExrFormat& format, const ImageTexts& texts, int& number) {
         std::vector<KinoraExrText> header;
         for (const auto& [key, value] : texts) {
             const bool checksum = key == kChecksumText;
-            wants_checksum_ |= checksum;
-            header.push_back({key.c_str(), checksum ? kNoChecksum : value.c_str()});
+            wants_checksum_ |= checksum && !format.lossy();
+            const char* held = format.lossy() ? kLossyChecksum : kNoChecksum;
+            header.push_back({key.c_str(), checksum ? held : value.c_str()});
         }
-        std::vector<const char*> names;
-        std::vector<int> in_file;
-        for (const raytrace::AovPlane& plane : film.aovs) {
-            names.push_back(plane.name.c_str());
-            in_file.push_back(plane.in_file);
-        }
-        const KinoraExrPicture picture{.width = film.width,
-                                       .height = height,
-                                       .half = depth == PictureDepth::Half,
-                                       .planes = int(names.size()),
-                                       .plane_names = names.data(),
-                                       .plane_in_file = in_file.data(),
-                                       .texts = int(header.size()),
-                                       .text = header.data(),
-                                       .compressor = compressor(),
-                                       .see = {&hash_, wants_checksum_ ? add_to_hash : nullptr}};
+        const std::vector<KinoraExrAttribute> attributes = attributes_of(format);
+        const Planes planes(film);
+        const KinoraExrPicture picture{
+            .width = film.width,
+            .height = height,
+            .half = format.depth == PictureDepth::Half,
+            .planes = int(planes.names.size()),
+            .plane_names = planes.names.data(),
+            .plane_in_file = planes.in_file.data(),
+            .plane_half = planes.half.data(),
+            .plane_exact = planes.exact.data(),
+            .plane_part = format.parts ? planes.parts.data() : nullptr,
+            .compression = (format.compression ? *format.compression : kUsual).number,
+            .level = format.level,
+            .attributes = int(attributes.size()),
+            .attribute = attributes.data(),
+            .texts = int(header.size()),
+            .text = header.data(),
+            .compressor = compressor(format.level),
+            .see = {&hash_, wants_checksum_ ? add_to_hash : nullptr}};
         KinoraExrError error{};
         writer_ = exr_module().kinora_exr_begin(file_, path.c_str(), &picture, &error);
         return told(writer_ == nullptr, error, number);
@@ -95,10 +135,10 @@ class ExrRowsToFile final : public RowWriter {
     }
 
     // libdeflate's where it is there: half of zlib's time.
-    KinoraExrCompressor compressor() {
+    KinoraExrCompressor compressor(double level) {
         constexpr int kLevel = 4;  // the size of zlib's level 4, which OpenEXR takes
         if (!libdeflate().error().empty()) return {};
-        deflate_ = libdeflate().libdeflate_alloc_compressor(kLevel);
+        deflate_ = libdeflate().libdeflate_alloc_compressor(level < 0 ? kLevel : int(level));
         if (!deflate_) return {};
         return {deflate_, [](void* state, const void* in, size_t count, void* out, size_t room) {
                     return libdeflate().libdeflate_zlib_compress(
@@ -122,12 +162,12 @@ void round_to_depth(raytrace::Film& film, PictureDepth depth) {
 }
 
 std::unique_ptr<RowWriter> exr_rows(std::FILE* file, const std::string& path,
-                                    const raytrace::Film& film, int height, PictureDepth depth,
+                                    const raytrace::Film& film, int height, const ExrFormat& format,
                                     const ImageTexts& texts, std::string& error, int& number) {
     error = exr_module().error();
     if (!error.empty()) return nullptr;
     auto rows = std::make_unique<ExrRowsToFile>(file);
-    error = rows->begin(path, film, height, depth, texts, number);
+    error = rows->begin(path, film, height, format, texts, number);
     if (!error.empty()) rows.reset();
     return rows;
 }

@@ -99,9 +99,9 @@ std::string write_png(const std::string& path, const Image8& image, const ImageT
 }
 
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
-                        const ImageTexts& texts, int* errno_out, PictureDepth depth) {
+                        const ImageTexts& texts, int* errno_out, const ExrFormat& format) {
     PictureFile file;
-    return write_rows(file, file.begin(path, film, film.height, encoding, texts, depth), film,
+    return write_rows(file, file.begin(path, film, film.height, encoding, texts, format), film,
                       errno_out);
 }
 
@@ -246,7 +246,8 @@ bool has_intact_pixels(const std::string& path) {
     const KinoraExrSee see{&hash, [](void* of, const void* bytes, size_t count) {
                                static_cast<ContentHash*>(of)->add(bytes, count);
                            }};
-    return exr_module().kinora_exr_see(path.c_str(), &see) == 0 && *digits == hash.digits();
+    return exr_module().kinora_exr_see(path.c_str(), &see) == 0 &&
+           (*digits == hash.digits() || *digits == kLossyChecksum);
 }
 
 std::optional<Image8> read_png(const std::string& path) {

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "raytrace/film.h"
+#include "runtime/scene/images/exr_format.h"
 
 namespace kinora {
 
 enum class ColorEncoding : uint8_t { Linear, Srgb };
-
-// How an EXR has its colours: 2^-11 of a value, and 65504 at most, or as they were rendered.
-enum class PictureDepth : uint8_t { Half, Float };
 
 // The film as a file of that depth has it.
 void round_to_depth(raytrace::Film& film, PictureDepth depth);
@@ -24,9 +22,11 @@ void round_to_depth(raytrace::Film& film, PictureDepth depth);
 using ImageTexts = std::vector<std::pair<std::string, std::string>>;
 
 // A text whose value the writer puts in: 16 digits of a hash of the pixels' bytes before they are
-// compressed, row by row. In a PNG it stands behind the pixels.
+// compressed, row by row. In a PNG it stands behind the pixels. Where a compression loses some of
+// them it is kLossyChecksum, and only whether all rows can be read is known.
 inline constexpr const char* kChecksumText = "kinora/checksum";
 inline constexpr size_t kChecksumDigits = 16;
+inline constexpr const char* kLossyChecksum = "compressed lossy";
 
 // 8-bit RGBA rows from the top, unassociated alpha.
 struct Image8 {
@@ -37,13 +37,13 @@ struct Image8 {
 // Film (linear, associated) to 8 bits: unassociated; sRGB-encoded (IEC 61966-2-1) or as is.
 Image8 to_8_bit(const raytrace::Film& film, ColorEncoding encoding);
 
-// Writes by the extension, .png (encoding as given) or .exr (RGBA of that depth, linear,
-// associated; ZIP; the film's planes as float channels): to a temporary name beside it, fsync,
+// Writes by the extension, .png (encoding as given) or .exr (in that format, linear,
+// associated; the film's planes as channels): to a temporary name beside it, fsync,
 // rename. The folder is there already. Returns an error text ("No space left on device"), or ""
 // when done; errno_out (if given) gets the system's number.
 std::string write_image(const std::string& path, const raytrace::Film& film, ColorEncoding encoding,
                         const ImageTexts& texts, int* errno_out = nullptr,
-                        PictureDepth depth = PictureDepth::Half);
+                        const ExrFormat& format = {});
 std::string write_png(const std::string& path, const Image8& image, const ImageTexts& texts,
                       int* errno_out = nullptr);
 

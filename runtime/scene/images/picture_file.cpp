@@ -28,10 +28,10 @@ std::string PictureFile::begin_with(const std::string& path, Make&& make) {
 
 std::string PictureFile::begin(const std::string& path, const raytrace::Film& film, int height,
                                ColorEncoding encoding, const ImageTexts& texts,
-                               PictureDepth depth) {
+                               const ExrFormat& format) {
     return begin_with(path, [&](std::string& error) -> std::unique_ptr<RowWriter> {
         if (has_extension(path, {".exr"}))
-            return exr_rows(file_.stream(), path, film, height, depth, texts, error, number_);
+            return exr_rows(file_.stream(), path, film, height, format, texts, error, number_);
         return png_rows(file_.stream(), film.width, height, encoding, texts, error, number_);
     });
 }

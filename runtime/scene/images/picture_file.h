@@ -27,7 +27,7 @@ class PictureFile {
     // Of so many rows in all; width and planes are the film's. Formats are write_image()'s.
     std::string begin(const std::string& path, const raytrace::Film& film, int height,
                       ColorEncoding encoding, const ImageTexts& texts,
-                      PictureDepth depth = PictureDepth::Half);
+                      const ExrFormat& format = {});
     // Of 8 bits.
     std::string begin_png(const std::string& path, int width, int height, const ImageTexts& texts);
     std::string write(const raytrace::Film& band);

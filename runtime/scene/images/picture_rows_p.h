@@ -17,7 +17,7 @@ class PngRows : public RowWriter {
 std::unique_ptr<PngRows> png_rows(std::FILE* file, int width, int height, ColorEncoding encoding,
                                   const ImageTexts& texts, std::string& error, int& number);
 std::unique_ptr<RowWriter> exr_rows(std::FILE* file, const std::string& path,
-                                    const raytrace::Film& film, int height, PictureDepth depth,
+                                    const raytrace::Film& film, int height, const ExrFormat& format,
                                     const ImageTexts& texts, std::string& error, int& number);
 
 }  // namespace kinora

@@ -12,7 +12,7 @@ parts = []
 while file.seek_subimage(len(parts), 0):
     spec = file.spec()
     pixels = file.read_image(len(parts), 0, 0, spec.nchannels, oiio.FLOAT).reshape(-1, spec.nchannels)
-    texts = {a.name: a.value if isinstance(a.value, (str, int, float)) else list(a.value) for a in spec.extra_attribs}
+    texts = {a.name: list(a.value) if isinstance(a.value, tuple) else a.value if isinstance(a.value, (str, int, float)) else str(a.value) for a in spec.extra_attribs}
     formats = [str(f) for f in spec.channelformats] or [str(spec.format)] * spec.nchannels
     parts.append({"width": spec.width, "height": spec.height, "channels": list(spec.channelnames),
                   "formats": dict(zip(spec.channelnames, formats)), "texts": texts,

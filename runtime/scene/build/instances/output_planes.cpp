@@ -88,7 +88,7 @@ OutputPlanes::OutputPlanes(SceneShaders& scene, std::span<const std::string> wan
     for (const ShaderUse& use : imagers)
         for (const rsl::ShaderParameter& p : use.shader->parameters)
             if (!p.type.is_array() && p.type.base != rsl::BaseType::String)
-                add_output({std::string(p.name), {}}, Reader::Imager);
+                add_output({std::string(p.name)}, Reader::Imager);
 }
 
 void OutputPlanes::add_wanted(const std::string& text, Diagnostics& diagnostics) {
@@ -105,15 +105,16 @@ void OutputPlanes::add_wanted(const std::string& text, Diagnostics& diagnostics)
 
 void OutputPlanes::add_all(const WantedAov& wanted, Diagnostics& diagnostics) {
     for (const AovRow& row : aov_rows())
-        add_built_in({std::string(row.name), wanted.filter}, diagnostics);
+        add_built_in({std::string(row.name), wanted.filter, wanted.half && !is_exact(row)},
+                     diagnostics);
     for (const std::string& name : all_outputs(scene_))
-        add_output({name, wanted.filter}, Reader::File);
+        add_output({name, wanted.filter, wanted.half}, Reader::File);
 }
 
 void OutputPlanes::add_display(const FileDisplay& display, Diagnostics& diagnostics) {
     const DisplayContent content = content_of(display);
-    if (content.depth) add_output({std::string(rsl::kDepthOutput), {}}, Reader::Display);
-    if (!content.variable.empty() && !add_output({content.variable, {}}, Reader::Display))
+    if (content.depth) add_output({std::string(rsl::kDepthOutput)}, Reader::Display);
+    if (!content.variable.empty() && !add_output({content.variable}, Reader::Display))
         diagnostics.report(Code::RI_OUTPUT_UNKNOWN, display.where, display.name, content.variable);
 }
 
@@ -132,6 +133,8 @@ bool OutputPlanes::add_built_in(const WantedAov& wanted, Diagnostics& diagnostic
     OutputPlane plane;
     plane.layer = wanted.name;
     plane.source = row->source;
+    plane.half = wanted.half;
+    plane.exact = is_exact(*row);
     plane.filter = wanted.filter.value_or(row->filter);
     if (plane.filter != AovFilter::Mean) plane.background = row->background;
     for (size_t c = 0; c < channels.size(); ++c) {
@@ -160,6 +163,7 @@ bool OutputPlanes::add_output(const WantedAov& wanted, Reader reader) {
     OutputPlane plane;
     plane.layer = plane.parameter = name;
     plane.in_file = reader == Reader::File;
+    plane.half = wanted.half;
     plane.filter = wanted.filter.value_or(depth ? AovFilter::Least : AovFilter::Mean);
     if (depth && plane.filter != AovFilter::Mean) plane.background = raytrace::kNoDepth;
     const rsl::Type type = *found;
