@@ -93,6 +93,7 @@ void TileJob::run(const Tile& tile) {
         follow_layers();
         finish_samples();
     }
+    planes_.finish();
     write_tile();
     shading_.end_tile(thread_);
 }
@@ -326,12 +327,27 @@ bool TileJob::shows_first(const HitBatch& hits, size_t k) const {
     return clear && there;
 }
 
+// How much of the sample's coverage is that of the hit: what it lets less through than was let
+// through to it. What mattes hide is none.
+double TileJob::hidden_by(const HitBatch& hits, size_t k) const {
+    if (shading_.has_mattes() && shading_.is_matte(hits, k)) return 0;
+    const size_t slot = m_.rays.slot[hits.ray[k]];
+    double hidden = 0;
+    for (size_t c = 0; c < 3; ++c) {
+        const double before = double(m_.through[c][slot]);
+        const double passes = 1 - double(std::clamp(m_.shaded[3 + c][k], 0.0f, 1.0f));
+        hidden += before * (1 - passes * double(m_.passages[k].onward)) / 3;
+    }
+    return hidden;
+}
+
 void TileJob::keep_planes(const HitBatch& hits) {
     if (film_.aovs.empty()) return;
     for (size_t k = 0; k < hits.count; ++k) {
-        if (!shows_first(hits, k)) continue;
         const size_t slot = m_.rays.slot[hits.ray[k]];
-        planes_.keep({k, pixel_of(slot), hits.sample[k], weight_of(slot)}, m_.aov_pointers);
+        const TilePlanes::Hit hit{k, pixel_of(slot), hits.sample[k], weight_of(slot)};
+        if (planes_.has_coverage()) planes_.cover(hit, hidden_by(hits, k), m_.aov_pointers);
+        if (shows_first(hits, k)) planes_.keep(hit, m_.aov_pointers);
     }
 }
 

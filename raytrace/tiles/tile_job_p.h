@@ -91,6 +91,7 @@ class TileJob {
     void mend(const HitBatch& hits);
     bool mend_hit(size_t k);
     bool shows_first(const HitBatch& hits, size_t k) const;
+    double hidden_by(const HitBatch& hits, size_t k) const;
     void keep_planes(const HitBatch& hits);
     void count_samples();
     void composite(const HitBatch& hits);

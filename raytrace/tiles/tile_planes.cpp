@@ -2,8 +2,10 @@
 #include "raytrace/tiles/tile_planes_p.h"
 
 #include <algorithm>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "raytrace/sampling.h"
 
@@ -19,6 +21,10 @@ bool any_nearest(std::span<const AovPlane> planes) {
 
 bool any_variance(std::span<const AovPlane> planes) {
     return std::ranges::count(planes, AovOrigin::Variance, &AovPlane::origin) > 0;
+}
+
+bool is_coverage(const AovPlane& plane) {
+    return plane.origin == AovOrigin::Coverage;
 }
 
 // What a pixel begins with.
@@ -51,6 +57,7 @@ void PlaneMemory::reserve(std::span<const AovPlane> planes, size_t pixels) {
     for (auto& sum : sums) sum.resize(std::max(sum.size(), pixels));
     if (!planes.empty()) hit.resize(std::max(hit.size(), pixels));
     if (any_nearest(planes)) nearest.resize(std::max(nearest.size(), pixels));
+    covered.resize(planes.size());
     if (!any_variance(planes)) return;
     mean.resize(std::max(mean.size(), 3 * pixels));
     squares.resize(std::max(squares.size(), 3 * pixels));
@@ -64,13 +71,15 @@ TilePlanes::TilePlanes(const Film& film, const IntegratorSettings& settings,
       filter_(filter),
       m_(memory),
       has_nearest_(any_nearest(film.aovs)),
-      has_variance_(any_variance(film.aovs)) {}
+      has_variance_(any_variance(film.aovs)),
+      has_coverage_(std::ranges::any_of(film.aovs, is_coverage)) {}
 
 void TilePlanes::begin(const PixelSet& pixels) {
     if (film_.aovs.empty()) return;
     std::fill_n(m_.hit.begin(), pixels.count, 0u);
     for (size_t p = 0; p < film_.aovs.size(); ++p)
         std::fill_n(m_.sums[p].begin(), pixels.count, first_value(film_.aovs[p]));
+    for (auto& of_plane : m_.covered) of_plane.clear();
     if (has_nearest_) find_nearest(pixels);
     if (!has_variance_) return;
     std::fill_n(m_.mean.begin(), 3 * pixels.count, 0.0);
@@ -102,9 +111,10 @@ void TilePlanes::find_nearest(const PixelSet& pixels) {
     }
 }
 
-void TilePlanes::keep(const FirstHit& hit, std::span<float* const> shaded) {
+void TilePlanes::keep(const Hit& hit, std::span<float* const> shaded) {
     ++m_.hit[hit.pixel];
     for (size_t p = 0; p < film_.aovs.size(); ++p) {
+        if (film_.aovs[p].origin != AovOrigin::Surface) continue;
         double& kept = m_.sums[p][hit.pixel];
         const double value = double(shaded[p][hit.at]);
         switch (film_.aovs[p].filter) {
@@ -123,6 +133,43 @@ void TilePlanes::keep(const FirstHit& hit, std::span<float* const> shaded) {
             case AovFilter::Most:
                 kept = std::max(kept, value);
                 break;
+        }
+    }
+}
+
+void TilePlanes::cover(const Hit& hit, double part, std::span<float* const> shaded) {
+    if (part == 0) return;
+    for (size_t p = 0; p < film_.aovs.size(); ++p)
+        if (is_coverage(film_.aovs[p]) && film_.aovs[p].component == 0)
+            m_.covered[p].push_back({uint32_t(hit.pixel), shaded[p][hit.at],
+                                     part * hit.weight / settings_.samples_per_pixel});
+}
+
+void TilePlanes::finish() {
+    for (size_t p = 0; p < film_.aovs.size(); ++p)
+        if (is_coverage(film_.aovs[p]) && film_.aovs[p].component == 0) rank(p);
+}
+
+// The ids that cover most of each pixel, in the order of what they cover: an id and its part.
+void TilePlanes::rank(size_t first_plane) {
+    constexpr size_t kRanks = 6;
+    using Covered = PlaneMemory::Covered;
+    std::vector<Covered>& all = m_.covered[first_plane];
+    std::ranges::stable_sort(all, {}, [](const Covered& c) { return std::pair(c.pixel, c.id); });
+    for (size_t first = 0, end; first < all.size(); first = end) {
+        end = first;
+        size_t ids = first;  // of the pixel, kept in place
+        for (; end < all.size() && all[end].pixel == all[first].pixel; ++end) {
+            if (end > first && all[end].id == all[ids].id)
+                all[ids].part += all[end].part;
+            else if (end > first)
+                all[++ids] = all[end];
+        }
+        const std::span<Covered> found(&all[first], ids + 1 - first);
+        std::ranges::stable_sort(found, std::greater<>(), &Covered::part);
+        for (size_t r = 0; r < std::min(kRanks, found.size()) && found[r].part > 0; ++r) {
+            m_.sums[first_plane + 2 * r][found[r].pixel] = double(found[r].id);
+            m_.sums[first_plane + 2 * r + 1][found[r].pixel] = found[r].part;
         }
     }
 }
@@ -146,6 +193,7 @@ float TilePlanes::value(size_t plane, size_t pixel) const {
     const AovPlane& of = film_.aovs[plane];
     switch (of.origin) {
         case AovOrigin::Surface:
+        case AovOrigin::Coverage:
             break;
         case AovOrigin::Samples:
             return float(settings_.samples_per_pixel);

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "runtime/scene/aovs/cryptomatte.h"
 #include "runtime/scene/names.h"
 #include "runtime/scene/scene.h"
 
@@ -37,6 +39,24 @@ constexpr NamesOf kNames[] = {
     {AovSource::Material, material_names},
 };
 
+struct CryptoOf {
+    AovSource source;
+    std::vector<IdName> (*names)(const SceneNodes&, const SceneShapes&);
+};
+constexpr CryptoOf kCryptos[] = {
+    {AovSource::CryptoObject, object_names},
+    {AovSource::CryptoMaterial, material_names},
+};
+
+void add_crypto(const Scene& scene, const OutputPlane& plane,
+                std::vector<std::pair<std::string, std::string>>& texts) {
+    const auto* row = std::ranges::find(kCryptos, plane.source, &CryptoOf::source);
+    if (row == std::end(kCryptos)) return;
+    std::vector<std::string> names;
+    for (IdName& name : row->names(scene, scene)) names.push_back(std::move(name.name));
+    for (auto& text : crypto_texts(plane.layer, names)) texts.push_back(std::move(text));
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> aov_texts(const Scene& scene) {
@@ -48,6 +68,7 @@ std::vector<std::pair<std::string, std::string>> aov_texts(const Scene& scene) {
         for (const NamesOf& row : kNames)
             if (row.source == plane.source)
                 texts.emplace_back("kinora/" + plane.layer, names_text(row.names(scene, scene)));
+        add_crypto(scene, plane, texts);
     }
     return texts;
 }

@@ -33,7 +33,7 @@ raytrace::Film film_of(int width, int height, F&& value) {
 std::string base_of(const std::string& plane) {
     size_t dot = plane.rfind('.');
     bool letter = dot != plane.npos && dot + 2 == plane.size() &&
-                  std::string_view("RGBXYZuvst").find(plane[dot + 1]) != std::string_view::npos;
+                  std::string_view("RGBAXYZxyuvst").find(plane[dot + 1]) != std::string_view::npos;
     return !letter ? plane : plane.substr(0, dot);
 }
 

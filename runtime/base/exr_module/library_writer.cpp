@@ -76,10 +76,12 @@ Imf::Header header_of(const KinoraExrPicture& picture, const std::vector<ExrChan
     Imf::Header header(picture.width, picture.height);
     const bool exact = std::ranges::all_of(channels, &ExrChannel::exact);
     header.compression() = exact ? Imf::ZIP_COMPRESSION : Imf::Compression(picture.compression);
-    if (picture.level >= 0 && !exact) {
-        header.zipCompressionLevel() = int(picture.level);
+    // DWA packs by zlib, too, whose level stays the usual one then.
+    const bool by_zlib = header.compression() == Imf::ZIP_COMPRESSION ||
+                         header.compression() == Imf::ZIPS_COMPRESSION;
+    if (picture.level >= 0 && !exact && by_zlib) header.zipCompressionLevel() = int(picture.level);
+    if (picture.level >= 0 && !exact && !by_zlib)
         header.dwaCompressionLevel() = float(picture.level);
-    }
     for (int i = 0; i < picture.attributes; ++i) insert_attribute(header, picture.attribute[i]);
     for (const ExrChannel& channel : channels)
         header.channels().insert(channel.name, Imf::Channel(type_of(channel)));

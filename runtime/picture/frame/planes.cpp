@@ -15,7 +15,12 @@ raytrace::AovOrigin origin_of(AovSource source) {
         case AovSource::Object:
         case AovSource::Material:
         case AovSource::Motion:
+        case AovSource::Albedo:
+        case AovSource::Emission:
             return raytrace::AovOrigin::Surface;
+        case AovSource::CryptoObject:
+        case AovSource::CryptoMaterial:
+            return raytrace::AovOrigin::Coverage;
         case AovSource::Samples:
             return raytrace::AovOrigin::Samples;
         case AovSource::Variance:

@@ -66,4 +66,20 @@ class NotingHost final : public PictureHost {
     void bake3d(const jit::ServiceCall&) override {}
 };
 
+// A kernel that runs once more in other light: no ray meets anything, and it prints and bakes
+// nothing.
+class RelitHost final : public PictureHost {
+  public:
+    using PictureHost::PictureHost;
+    void trace(const jit::ServiceCall& call) override;
+    void transmission(const jit::ServiceCall& call) override;
+    void occlusion(const jit::ServiceCall& call) override;
+    void indirectdiffuse(const jit::ServiceCall& call) override;
+    void gather(const jit::ServiceCall& call) override;
+    void print(const jit::ServiceCall&) override {}
+    void lights(const jit::ServiceCall& call) override;
+    void samplinglights(const jit::ServiceCall& call) override;
+    void bake3d(const jit::ServiceCall&) override {}
+};
+
 }  // namespace kinora

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "raytrace/camera.h"
+#include "runtime/scene/aovs/cryptomatte.h"
 #include "runtime/scene/names.h"
+#include "runtime/scene/scene.h"
 
 namespace kinora {
 
@@ -59,9 +61,31 @@ constexpr Row kRows[] = {
     {AovSource::Material, [](const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k,
                              uint32_t) { return float(material_id(surface_of(frame, hits, k))); }},
     {AovSource::Motion, motion_at},
+    {AovSource::CryptoObject,
+     [](const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k, uint32_t component) {
+         return component == 0 ? frame.object_crypto[hits.geometry[k]] : 0;
+     }},
+    {AovSource::CryptoMaterial,
+     [](const ShadingFrame& frame, const raytrace::HitBatch& hits, size_t k, uint32_t component) {
+         return component == 0 ? frame.material_crypto[hits.geometry[k]] : 0;
+     }},
 };
 
 }  // namespace
+
+void hash_names(const Scene& scene, ShadingFrame& frame) {
+    for (const OutputPlane& plane : scene.outputs) {
+        if (plane.component != 0) continue;
+        for (const Surface& surface : scene.surfaces) {
+            if (plane.source == AovSource::CryptoObject)
+                frame.object_crypto.push_back(
+                    crypto_id(node_path(scene, scene.shapes[surface.shape].node)));
+            if (plane.source == AovSource::CryptoMaterial)
+                frame.material_crypto.push_back(
+                    crypto_id(material_name(*scene.description, surface.material)));
+        }
+    }
+}
 
 void fill_hit_planes(const ShadingFrame& frame, const raytrace::HitBatch& hits,
                      const raytrace::ShadeResult& result) {

@@ -14,6 +14,7 @@
 #include "runtime/picture/shading/frame/insight.h"
 #include "runtime/picture/shading/lighting/lamps.h"
 #include "runtime/picture/shading/ray_queue.h"
+#include "runtime/picture/shading/relight.h"
 
 namespace kinora {
 
@@ -263,6 +264,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         const uint32_t before = hits.rays->spent[hits.ray[points[i]]];
         result.passages[points[i]] = {rays.onward, rays.reflects, rays.shot - before, rays.kept};
     }
+    if (frame_.relit && grid.depth == 0) relight(grid, kernels_, result);
     const bool whole = frame_.insight.only_light == kNone;
     if (whole && frame_.pose.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
     for (size_t p = 0; p < std::min(result.aov.size(), look.aovs.size()); ++p)

@@ -144,6 +144,28 @@ std::span<float*> KernelRunner::run_in_the_dark(Grid& grid) const {
     return out;
 }
 
+std::span<float*> KernelRunner::run_relit(Grid& grid, const jit::RecordSet& lights) const {
+    Arena& arena = grid.memory.arena;
+    const BoundKernel& bound = grid.look->full;
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
+    RelitHost host(grid, services_);
+    std::span<jit::RecordSet> sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
+    std::fill(sets.begin(), sets.end(), jit::RecordSet{});
+    sets[0] = lights;
+    std::swap(sets, grid.record_sets);
+    bound.run({.count = grid.count(),
+               .frame = block_of(frame_, *grid.look, bound),
+               .columns = grid.columns,
+               .out = out,
+               .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
+               .record_sets = grid.record_sets,
+               .host = host,
+               .stop = frame_.stop},
+              arena);
+    std::swap(sets, grid.record_sets);
+    return out;
+}
+
 void KernelRunner::run_noting(Grid& grid, FunctionRef<void()> run) const {
     const size_t ended = count_points(grid, &PointRays::ended),
                  thinned = count_points(grid, &PointRays::thinned);

@@ -35,6 +35,9 @@ class KernelRunner {
     void run_noting(Grid& grid, FunctionRef<void()> run) const;
     // What the look's kernel gives without lights and rays; it prints and bakes nothing.
     std::span<float*> run_in_the_dark(Grid& grid) const;
+    // What the look's kernel gives in those lights, without rays; it prints and bakes nothing. The
+    // grid's own lights and accounts stay.
+    std::span<float*> run_relit(Grid& grid, const jit::RecordSet& lights) const;
     // Runs a kernel of the grid's look; its output rows, from the thread's arena.
     std::span<float*> run(const BoundKernel& bound, Grid& grid);
 

@@ -114,4 +114,30 @@ void NotingHost::samplinglights(const jit::ServiceCall& call) {
     lights(call);
 }
 
+// As of rays that meet nothing: rsl/model/services.def.
+void RelitHost::trace(const jit::ServiceCall& call) {
+    std::fill_n(call.results, 3 * jit::kMaxLanes, 0.0f);
+    std::fill_n(call.results + 3 * jit::kMaxLanes, jit::kMaxLanes, 1e30f);
+}
+void RelitHost::transmission(const jit::ServiceCall& call) {
+    std::fill_n(call.results, 3 * jit::kMaxLanes, 1.0f);
+}
+void RelitHost::occlusion(const jit::ServiceCall& call) {
+    std::fill_n(call.results, 7 * jit::kMaxLanes, 0.0f);
+}
+void RelitHost::indirectdiffuse(const jit::ServiceCall& call) {
+    std::fill_n(call.results, 7 * jit::kMaxLanes, 0.0f);
+}
+void RelitHost::gather(const jit::ServiceCall& call) {
+    grid_.record_sets[1] = {};
+    answer_handle(call, 1);
+}
+// The set of the points themselves.
+void RelitHost::lights(const jit::ServiceCall& call) {
+    answer_handle(call, 0);
+}
+void RelitHost::samplinglights(const jit::ServiceCall& call) {
+    gather(call);
+}
+
 }  // namespace kinora

@@ -19,6 +19,7 @@
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/ray_services.h"
 #include "runtime/picture/shading/rays/map_tables.h"
+#include "runtime/picture/shading/relight.h"
 #include "runtime/picture/shading/transmission.h"
 #include "runtime/scene/description/scene_description.h"
 #include "runtime/scene/scene.h"
@@ -86,6 +87,8 @@ Shading::Shading(const Scene& scene, const Pose& pose) {
     frame.lights_shoot = std::ranges::any_of(
         scene.lights, [&](const LightSource& light) { return shoots_rays(*looks[light.look]); });
     objects_->looks_run = looks_that_run(scene, objects_->lights);
+    hash_names(scene, frame);
+    frame.relit = wants_relight(scene);
     objects_->reads_footprints = kinora::reads_footprints(scene);
     objects_->has_mattes = std::ranges::any_of(scene.surfaces, &Surface::matte);
     // Files that bring their picture are RIB, where an atmosphere is a surface's attribute.

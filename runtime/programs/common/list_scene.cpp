@@ -139,7 +139,7 @@ Json built_in_aovs(const Scene&) {
     Json list = Json::array();
     for (const AovRow& row : aov_rows())
         list.push_back({{"name", row.name},
-                        {"channels", parted_words(row.channels)},
+                        {"channels", channel_names(row)},
                         {"filter", word_of(row.filter)},
                         {"premultiplied", row.filter == raytrace::AovFilter::Mean},
                         {"background", row.background},
@@ -148,12 +148,11 @@ Json built_in_aovs(const Scene&) {
 }
 
 std::string built_in_aov_line(const Json& row) {
-    const bool premultiplied = row["premultiplied"].get<bool>();
-    return fmt::format(
-        "built in: aov {} ({}; {}; {}{})\n", row["name"].get<std::string>(),
-        row["channels"].empty() ? "1 channel" : fmt::format("{} channels", row["channels"].size()),
-        row["what"].get<std::string>(), row["filter"].get<std::string>(),
-        premultiplied ? ", premultiplied" : "");
+    const size_t channels = row["channels"].size();
+    return fmt::format("built in: aov {} ({} {}; {}; {}{})\n", row["name"].get<std::string>(),
+                       channels, channels == 1 ? "channel" : "channels",
+                       row["what"].get<std::string>(), row["filter"].get<std::string>(),
+                       row["premultiplied"].get<bool>() ? ", premultiplied" : "");
 }
 
 Json lights(const Scene& scene) {

@@ -216,6 +216,7 @@ bool Render::list_frames() {
 int Render::frames() {
     if (loses_digits(options_, scene_.scene())) {
         scene_.diagnostics().report(Code::AOV_LOSSY, Location{}, options_.exr.compression->name);
+        flush_findings();
         return kExitUsage;
     }
     catch_signals();

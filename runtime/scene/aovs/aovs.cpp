@@ -14,6 +14,9 @@ using enum AovSource;
 
 constexpr float kFar = raytrace::kNoDepth;
 
+// Six numbers of names, with the coverage of each.
+constexpr std::string_view kRanks = "00.R 00.G 00.B 00.A 01.R 01.G 01.B 01.A 02.R 02.G 02.B 02.A";
+
 constexpr AovRow kRows[] = {
     {"P", "X Y Z", Kernel, "P", AovFilter::Nearest, 0, "place, camera space"},
     {"N", "X Y Z", Kernel, "N", AovFilter::Nearest, 0,
@@ -30,12 +33,24 @@ constexpr AovRow kRows[] = {
     {"motion", "next.x next.y previous.x previous.y", Motion, "", AovFilter::Nearest, 0,
      "pixels to the place in the next frame, and from that in the previous one; x to the right, y "
      "up"},
+    {"crypto_object", kRanks, CryptoObject, "", AovFilter::Mean, 0,
+     "Cryptomatte of the nodes' paths"},
+    {"crypto_material", kRanks, CryptoMaterial, "", AovFilter::Mean, 0,
+     "Cryptomatte of the materials' names"},
+    {"albedo", "R G B", Albedo, "", AovFilter::Mean, 0,
+     "what the shader makes of one white light along N, without speculars"},
+    {"emission", "R G B", Emission, "", AovFilter::Mean, 0,
+     "what the shader shows without lights and rays"},
     {"samples", "", Samples, "", AovFilter::Mean, 0, "samples of the pixel"},
     {"variance", "R G B", Variance, "", AovFilter::Mean, 0,
      "variance of the samples' colors; 0 with one sample"},
     {"cost", "", Cost, "", AovFilter::Mean, 0,
      "rays that the pixel took, those of its shaders and lights too"},
 };
+
+constexpr AovSource kExact[] = {Surface, Object, Material, CryptoObject, CryptoMaterial};
+// What is no number of single samples has no other filter.
+constexpr AovSource kOfPixels[] = {CryptoObject, CryptoMaterial, Samples, Variance, Cost};
 
 struct FilterWord {
     AovFilter filter;
@@ -67,12 +82,20 @@ std::vector<std::string> parted_words(std::string_view text) {
     return words;
 }
 
+std::vector<std::string> channel_names(const AovRow& row) {
+    std::vector<std::string> names = parted_words(row.channels);
+    for (std::string& name : names)
+        name = fmt::format("{}{}{}", row.name, name[0] >= '0' && name[0] <= '9' ? "" : ".", name);
+    if (names.empty()) names.emplace_back(row.name);
+    return names;
+}
+
 std::string_view word_of(AovFilter filter) {
     return std::ranges::find(kFilters, filter, &FilterWord::filter)->word;
 }
 
 bool is_exact(const AovRow& row) {
-    return row.source == Surface || row.source == Object || row.source == Material;
+    return std::ranges::count(kExact, row.source) > 0;
 }
 
 std::optional<WantedAov> parse_aov(std::string_view text) {
@@ -91,18 +114,22 @@ std::optional<WantedAov> parse_aov(std::string_view text) {
     }
     const AovRow* row = find_aov_row(wanted.name);
     if (wanted.half && row && is_exact(*row)) return {};
+    if (wanted.filter && row && std::ranges::count(kOfPixels, row->source) > 0) return {};
     return wanted;
 }
 
 std::string aov_table() {
+    constexpr size_t kShown = 4;  // channels
     std::string table =
         "| AOV | channels | filter | premultiplied | background | what |\n"
         "|---|---|---|---|---|---|\n";
     for (const AovRow& row : kRows) {
+        const std::vector<std::string> names = channel_names(row);
         std::string channels;
-        for (const std::string& channel : parted_words(row.channels))
-            channels += fmt::format("{}`{}.{}`", channels.empty() ? "" : " ", row.name, channel);
-        if (channels.empty()) channels = fmt::format("`{}`", row.name);
+        if (names.size() > kShown)
+            channels = fmt::format("`{}` to `{}`", names.front(), names.back());
+        else
+            channels = fmt::format("`{}`", fmt::join(names, "` `"));
         table += fmt::format("| `{}` | {} | {} | {} | {:g} | {} |\n", row.name, channels,
                              word_of(row.filter), row.filter == AovFilter::Mean ? "yes" : "no",
                              row.background, row.what);

@@ -21,6 +21,10 @@ enum class AovSource : uint8_t {
     Object,
     Material,
     Motion,
+    Albedo,  // of the shader, run once more in other light
+    Emission,
+    CryptoObject,  // names of hits by coverage
+    CryptoMaterial,
     Samples,  // numbers of a pixel
     Variance,
     Cost,
@@ -29,7 +33,8 @@ enum class AovSource : uint8_t {
 // A built-in AOV. Its places and directions are in the camera's space, as RSL's "current".
 struct AovRow {
     std::string_view name;
-    std::string_view channels;  // behind the name, parted by spaces; "": one, without
+    std::string_view channels;  // behind the name, parted by spaces; "": one, without. A dot parts
+                                // the name from a letter
     AovSource source;
     std::string_view outputs;  // Kernel: one of as many components, or one a channel
     raytrace::AovFilter filter;
@@ -41,6 +46,11 @@ const AovRow* find_aov_row(std::string_view name);  // null: there is none
 
 // The words of a text that spaces part: AovRow::channels and outputs.
 std::vector<std::string> parted_words(std::string_view text);
+// The names of a row's channels: "P.X", "crypto_object00.R".
+std::vector<std::string> channel_names(const AovRow& row);
+
+// Whether a number of the row stands for a name, so that no digit of it may go.
+bool is_exact(const AovRow& row);
 
 // Whether a number of the row stands for a name, so that no digit of it may go.
 bool is_exact(const AovRow& row);

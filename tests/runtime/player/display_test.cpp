@@ -171,5 +171,30 @@ TEST(Guide, RaysBesideEdgesSuffice) {
                 whole.surface.size() - taken, whole.surface.size(), surfaces, apart, far);
 }
 
+TEST(Display, NamesAovsByTheirLayersAndOnce) {
+    raytrace::Film film(1, 1);
+    for (const char* name : {"P.X", "P.Y", "P.Z", "uv.u", "uv.v", "motion.next.x", "motion.next.y",
+                             "crypto_object00.R", "crypto_object00.A", "lamps.2", "Z", "depth"})
+        film.add_aov(name);
+    const std::vector<std::string> names = shown_names(film.aovs);
+    const std::vector<std::string> first{"",        "P", "uv", "motion.next", "crypto_object00",
+                                         "lamps.2", "Z"};
+    ASSERT_GT(names.size(), first.size());
+    EXPECT_TRUE(std::equal(first.begin(), first.end(), names.begin()));
+    EXPECT_EQ(std::count(names.begin(), names.end(), "depth"), 1);
+}
+
+// The background of a distance is no part of its scale.
+TEST(Display, ScalesDistancesByWhatIsSeen) {
+    raytrace::Film film(3, 1);
+    film.add_aov("Z").values = {2, 6, raytrace::kNoDepth};
+    DisplaySettings settings;
+    settings.aov = "Z";
+    const auto scale = number_scale(film, {}, {}, settings);
+    ASSERT_TRUE(scale);
+    EXPECT_EQ(scale->low, 2);
+    EXPECT_EQ(scale->high, 6);
+}
+
 }  // namespace
 }  // namespace kinora

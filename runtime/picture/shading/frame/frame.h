@@ -68,6 +68,9 @@ struct ShadingFrame : EyeSpace {
     // side of the scene: the eye's distance from the centre plus the diagonal.
     float far_distance = 0;
     float miss_distance = 0;  // the same where some volume or the dome lies there, else 0
+    // Of each surface, where an AOV has them: crypto_id() of its node's path and its material.
+    std::vector<float> object_crypto = {}, material_crypto = {};
+    bool relit = false;  // an AOV is of albedo or emission
     const std::atomic<int>* stop = nullptr;
     ShadingInsight insight = {};
 

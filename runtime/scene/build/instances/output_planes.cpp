@@ -127,9 +127,7 @@ bool OutputPlanes::add_built_in(const WantedAov& wanted, Diagnostics& diagnostic
         return false;
     }
     const std::vector<std::string> outputs = parted_words(row->outputs);
-    std::vector<std::string> channels = parted_words(row->channels);
-    for (std::string& channel : channels) channel = fmt::format("{}.{}", row->name, channel);
-    if (channels.empty()) channels.emplace_back(row->name);
+    const std::vector<std::string> channels = channel_names(*row);
     OutputPlane plane;
     plane.layer = wanted.name;
     plane.source = row->source;
@@ -143,7 +141,7 @@ bool OutputPlanes::add_built_in(const WantedAov& wanted, Diagnostics& diagnostic
         if (!outputs.empty()) {
             plane.parameter = outputs[std::min(c, outputs.size() - 1)];
             plane.component = component_of(c, channels.size(), outputs.size());
-            ask_kernels(plane.parameter);
+            want_output(plane.parameter);
         }
         scene_.outputs.push_back(plane);
     }
@@ -158,7 +156,7 @@ bool OutputPlanes::add_output(const WantedAov& wanted, Reader reader) {
     const bool declared = found.has_value();
     if (!declared && reader != Reader::Imager) found = find_global_output(name);
     if (!found) return false;
-    ask_kernels(name);
+    want_output(name);
     const bool depth = !declared && name == rsl::kDepthOutput;
     OutputPlane plane;
     plane.layer = plane.parameter = name;
@@ -183,7 +181,7 @@ bool OutputPlanes::is_there(const std::string& layer) const {
     return std::ranges::count(scene_.outputs, layer, &OutputPlane::layer) > 0;
 }
 
-void OutputPlanes::ask_kernels(const std::string& output) {
+void OutputPlanes::want_output(const std::string& output) {
     if (std::ranges::count(outputs_, output) == 0) outputs_.push_back(output);
 }
 

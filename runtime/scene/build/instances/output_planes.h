@@ -32,7 +32,7 @@ class OutputPlanes {
     bool add_built_in(const WantedAov& wanted, Diagnostics& diagnostics);
     bool add_output(const WantedAov& wanted, Reader reader);
     bool is_there(const std::string& layer) const;
-    void ask_kernels(const std::string& output);
+    void want_output(const std::string& output);
 
     SceneShaders& scene_;
     std::vector<std::string> outputs_;

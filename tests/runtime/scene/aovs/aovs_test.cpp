@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "jit/target.h"
 #include "runtime/kinora/aov_texts.h"
+#include "runtime/scene/aovs/cryptomatte.h"
 #include "tests/runtime/scene_text.h"
 
 namespace kinora {
@@ -149,8 +152,7 @@ TEST(Aovs, OfAllAreTheRowsAndTheOutputsOfShaders) {
     const Rendering& r = *taken_frame;
     EXPECT_EQ(r.findings(), "");
     size_t channels = 6;
-    for (const AovRow& row : aov_rows())
-        channels += std::max<size_t>(parted_words(row.channels).size(), 1);
+    for (const AovRow& row : aov_rows()) channels += channel_names(row).size();
     EXPECT_EQ(r.film.aovs.size(), channels);
     EXPECT_NEAR(number(r, "glow.1.G", 8, 8), 2, 1e-6);
     EXPECT_EQ(number(r, "samples", 8, 8), 1);
@@ -163,6 +165,101 @@ TEST(Aovs, OfUnknownFiltersAndTwiceTheSameNameAreFindings) {
     EXPECT_EQ(r.count("AOV_REPEATED"), 1) << r.findings();
     EXPECT_EQ(r.count("AOV_UNKNOWN"), 1) << r.findings();
     EXPECT_EQ(r.film.aovs.size(), 3u);
+}
+
+void expect_color(const Rendering& r, const std::string& layer, int x, int y, vec3 want) {
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(number(r, fmt::format("{}.{}", layer, "RGB"[c]), x, y), double(want[c]), 1e-6)
+            << layer << '.' << "RGB"[c];
+}
+
+// No lamp shines; the sheets are a mirror, a glowing plastic and a fixed material.
+TEST(Aovs, OfAlbedoAndEmissionAreOfTheShaderInOtherLight) {
+    SceneText scene = fixed_scene();
+    scene
+        .look("mirror",
+              "surface m() { Ci = trace(P, vector \"camera\" (0, 0, -1)) + (1 - occlusion(P, N, "
+              "4)) * color(.1, .2, .3); }")
+        .look("plastic",
+              "surface p() { normal Nf = faceforward(normalize(N), I); printf(\"once\\n\");"
+              " Ci = color(.5, .25, .125) * (ambient() + diffuse(Nf)) +"
+              "      specular(Nf, -normalize(I), .1) + color(0, .5, 2); }")
+        .place("s", "mirror", "<translate>0.5 0.5 0</translate>")
+        .place("s", "plastic", "<translate>0.5 -0.5 0</translate><rotate>0 1 0 150</rotate>")
+        .light("everywhere", "<ambient><color>1 1 1</color></ambient>");
+    const auto taken_frame = taken(scene, {"albedo", "emission"});
+    const Rendering& r = *taken_frame;
+    expect_color(r, "emission", 12, 12, {0, .5, 2});
+    expect_color(r, "albedo", 12, 12, {.5, .25, .125});
+    expect_color(r, "emission", 12, 4, {.1, .2, .3});
+    expect_color(r, "albedo", 12, 4, {0, 0, 0});
+    expect_color(r, "albedo", 4, 8, {1, 0, 0});
+    expect_color(r, "emission", 4, 8, {0, 0, 0});
+    expect_color(r, "albedo", 12, 0, {0, 0, 0});
+    EXPECT_GT(r.film.at(12, 12).x, 0.4f);  // the ambient light is of the picture alone
+}
+
+// Hashes that the algorithm's author and others publish.
+TEST(Cryptomatte, HashesNamesAsOthersDo) {
+    EXPECT_EQ(murmur_hash_3(""), 0u);
+    EXPECT_EQ(murmur_hash_3("hello"), 0x248bfa47u);
+    EXPECT_EQ(murmur_hash_3("hello, world"), 0x149bbb7fu);
+    EXPECT_EQ(murmur_hash_3("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
+    // Of a thousand names some would be no normal floats.
+    size_t turned = 0;
+    for (int n = 0; n < 1000; ++n) {
+        const std::string name = fmt::format("node/{}", n);
+        const float id = crypto_id(name);
+        EXPECT_TRUE(std::isnormal(id)) << name;
+        turned += std::bit_cast<uint32_t>(id) != murmur_hash_3(name);
+    }
+    EXPECT_GT(turned, 0u);
+    EXPECT_LT(turned, 30u);
+}
+
+double coverage(const Rendering& r, const std::string& layer, const std::string& name, int x,
+                int y) {
+    double sum = 0;
+    for (const char* rank : {"00", "01", "02"})
+        for (auto [id, part] : {std::pair("R", "G"), {"B", "A"}})
+            if (float(number(r, fmt::format("{}{}.{}", layer, rank, id), x, y)) == crypto_id(name))
+                sum += number(r, fmt::format("{}{}.{}", layer, rank, part), x, y);
+    return sum;
+}
+
+// Glass of which half is seen before two sheets; their border halves the pixels of column 8.
+TEST(Cryptomatte, CoverageIsThatOfTheSamplesAndAddsUp) {
+    SceneText scene;
+    scene.square("s", 1)
+        .look("red", "surface l() { Ci = 1; }")
+        .look("glass", "surface g() { Oi = color(0.25, 0.5, 0.75); Ci = 0; }")
+        .place("s", "red", "<translate>-0.9375 0 0</translate>", "left")
+        .place("s", "red", "<translate>1.0625 -1 0</translate>", "right")
+        .place("s", "glass", "<translate>0 0.5 2</translate>", "front");
+    const auto taken_frame = taken(scene, {"crypto_object", "crypto_material", "object_id"}, 64);
+    const Rendering& r = *taken_frame;
+    EXPECT_EQ(r.findings(), "");
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            double sum = 0, last = 1;
+            for (const char* rank : {"00", "01", "02"})
+                for (const char* part : {"G", "A"}) {
+                    const double one =
+                        number(r, fmt::format("crypto_object{}.{}", rank, part), x, y);
+                    EXPECT_LE(one, last);
+                    sum += last = one;
+                }
+            EXPECT_NEAR(sum, double(r.film.at(x, y).w), 1e-6) << x << ' ' << y;
+            EXPECT_NEAR(coverage(r, "crypto_material", "red", x, y),
+                        coverage(r, "crypto_object", "left", x, y) +
+                            coverage(r, "crypto_object", "right", x, y),
+                        1e-6);
+        }
+    EXPECT_NEAR(coverage(r, "crypto_object", "front", 3, 2), 0.5, 1e-6);
+    EXPECT_NEAR(coverage(r, "crypto_object", "left", 3, 2), 0.5, 1e-6);
+    EXPECT_NEAR(coverage(r, "crypto_object", "left", 8, 14), 0.5, 0.03);
+    EXPECT_NEAR(coverage(r, "crypto_object", "right", 8, 14), 0.5, 0.03);
+    EXPECT_EQ(coverage(r, "crypto_object", "left", 12, 14), 0);
 }
 
 // A mirror costs its reflected ray, nothing costs the camera's ray alone.
@@ -183,6 +280,27 @@ TEST(Aovs, OfCostCountRays) {
 bool same_planes(const raytrace::Film& a, const raytrace::Film& b) {
     return std::ranges::equal(a.aovs, b.aovs, {}, &raytrace::AovPlane::values,
                               &raytrace::AovPlane::values);
+}
+
+TEST(Aovs, OfPicturesInBandsAreThoseOfWholeOnes) {
+    SceneOptions options;
+    options.aovs = {"all"};
+    const std::string text = fixed_scene().text();
+    Rendering whole(text, options), in_bands(text, options);
+    whole.settings.integrator.samples_per_pixel = 4;
+    whole.frame(40, 150);
+    std::vector<std::vector<float>> values(whole.film.aovs.size());
+    in_bands.settings = whole.settings;
+    in_bands.settings.band_rows = in_bands.settings.integrator.tile;
+    in_bands.settings.on_band = [&](const raytrace::Film& band) {
+        for (size_t p = 0; p < values.size(); ++p)
+            values[p].insert(values[p].end(), band.aovs[p].values.begin(),
+                             band.aovs[p].values.end());
+        return true;
+    };
+    in_bands.frame(40, 150);
+    for (size_t p = 0; p < values.size(); ++p)
+        EXPECT_EQ(values[p], whole.film.aovs[p].values) << whole.film.aovs[p].name;
 }
 
 TEST(Aovs, ChangeNoPictureAndAreTheSameForAnyThreadsAndTargets) {
