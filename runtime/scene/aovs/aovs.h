@@ -52,9 +52,6 @@ std::vector<std::string> channel_names(const AovRow& row);
 // Whether a number of the row stands for a name, so that no digit of it may go.
 bool is_exact(const AovRow& row);
 
-// Whether a number of the row stands for a name, so that no digit of it may go.
-bool is_exact(const AovRow& row);
-
 // The word of a filter: "filter", "average", "nearest", "min", "max".
 std::string_view word_of(raytrace::AovFilter filter);
 
