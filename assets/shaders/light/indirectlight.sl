@@ -5,15 +5,9 @@
 light indirectlight(float intensity = 1; color lightcolor = 1; float samples = 1; float maxdist = 1e30;
                     output float __nonspecular = 1; output string __category = "indirect";) {
     vector seen = 0;
-    uniform float most = 0, bounces = 0;
-    option("gi", most);
-    rayinfo("diffusedepth", bounces);
     rayinfo("direction", seen);
     normal n = normalize(Ns);
     if (n . seen > 0) n = -n;
-    illuminate(Ps + n) {
-        Cl = 0;
-        if (most == 0 || bounces < most)
-            Cl = intensity * lightcolor * indirectdiffuse(Ps, n, samples, "maxdist", maxdist);
-    }
+    illuminate(Ps + n)
+        Cl = intensity * lightcolor * indirectdiffuse(Ps, n, samples, "maxdist", maxdist);
 }

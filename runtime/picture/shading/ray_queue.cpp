@@ -22,10 +22,10 @@ constexpr float kLeastRays = 16;      // that any point may shoot
 
 }  // namespace
 
-bool is_too_deep(const RayKindRow& row, const Grid& grid) {
-    const Quality& quality = grid.frame.quality;
-    return is_too_deep(row,
-                       {grid.depth, grid.ray.diffuse, quality.ray_depth, quality.diffuse_depth});
+bool is_too_deep(const RayKindRow& row, const Grid& grid, const ShaderInstance& look) {
+    const ShadingFrame& frame = grid.frame;
+    return is_too_deep(
+        row, {grid.depth, grid.ray.diffuse, frame.quality.ray_depth, frame.bounces[look.index]});
 }
 
 void set_kind(raytrace::RayBatch& rays, size_t first, RayKind kind) {
@@ -116,7 +116,7 @@ namespace {
 enum class Leave : uint8_t { Yes, TooDeep, Never };
 
 Leave may_leave(const RayKindRow& row, const Grid& grid) {
-    if (is_too_deep(row, grid)) return Leave::TooDeep;
+    if (is_too_deep(row, grid, *grid.look)) return Leave::TooDeep;
     return grid.shadows && !grid.frame.stopped() ? Leave::Yes : Leave::Never;
 }
 
@@ -161,8 +161,9 @@ float number_of_call(const Grid& grid, size_t point, const PointBudget& budget) 
 
 // Bounces that a path from the grid's points may take.
 uint32_t bounces_left(const Grid& grid) {
-    const Quality& quality = grid.frame.quality;
-    return std::min(quality.ray_depth - grid.depth, quality.diffuse_depth - grid.ray.diffuse);
+    const ShadingFrame& frame = grid.frame;
+    return std::min(frame.quality.ray_depth - grid.depth,
+                    frame.bounces[grid.look->index] - grid.ray.diffuse);
 }
 
 void fit_to_allowance(const Grid& grid, size_t point, const PointBudget& budget, LanePlan& plan) {
@@ -598,7 +599,7 @@ void RayNotes::flush(Batch& batch) {
 
 bool sends_noted_rays(const ShaderInstance& look, const Grid& grid) {
     return std::ranges::any_of(ray_kinds(), [&](const RayKindRow& row) {
-        return row.noted && !is_too_deep(row, grid) && calls_service(look.full, row.kind);
+        return row.noted && !is_too_deep(row, grid, look) && calls_service(look.full, row.kind);
     });
 }
 

@@ -155,9 +155,10 @@ class RayNotes {
     bool open_ = false;
 };
 
+// Whether depth forbids rays of the kind to leave the grid's points, which the kernel of the look
+// would send: the surface's own, or that of a light that lights it.
+bool is_too_deep(const RayKindRow& row, const Grid& grid, const ShaderInstance& look);
 // Whether the kernel of a look calls services whose rays may be sent from the grid's points and
-// Whether depth forbids rays of the kind to leave the grid's points.
-bool is_too_deep(const RayKindRow& row, const Grid& grid);
 // wait for others.
 bool sends_noted_rays(const ShaderInstance& look, const Grid& grid);
 

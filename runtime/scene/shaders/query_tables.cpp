@@ -152,11 +152,6 @@ Fact scene_file(const Asker& asker) {
     return std::string_view(asker.nodes.description->path);
 }
 
-// Bounces of --gi.
-Fact indirect_bounces(const Asker& asker) {
-    return double(asker.nodes.options.indirect);
-}
-
 constexpr Row kOptions[] = {
     {"Format", format},
     {"DeviceResolution", format},
@@ -173,7 +168,6 @@ constexpr Row kOptions[] = {
     {"Shutter", shutter},
     {"Clipping", clipping},
     {"Frame", frame},
-    {"gi", indirect_bounces},
     {"Projection", projection},
     {"Exposure",
      [](const Asker&) {

@@ -29,6 +29,11 @@ ShadingFrame::ShadingFrame(const Scene& s, const Pose& p)
       lights(s),
       shaders(s),
       quality(s.options.quality),
-      pose(p) {}
+      pose(p),
+      bounces(s.shader_instances.size(), s.options.quality.diffuse_depth) {
+    for (const LightSource& light : s.lights)
+        if (s.description->lights[light.definition].indirect && s.options.indirect > 0)
+            bounces[light.look] = s.options.indirect;
+}
 
 }  // namespace kinora

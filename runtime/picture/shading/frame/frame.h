@@ -60,6 +60,8 @@ struct ShadingFrame : EyeSpace {
     bool any_transparent = false;
     bool lights_shoot = false;  // some light's kernel shoots rays
     uint32_t dome = kNone;      // of Scene::lights: what rays see that leave the scene
+    // Of each look: how often light is reflected that its kernel gathers by indirect rays.
+    std::vector<uint32_t> bounces;
     // Of each look: which lights that rays can see light it, a number for each set; 0: none. Those
     // that its rays of diffuse light do not count again, and its rays for specular samples.
     std::vector<uint32_t> counted = {}, counted_specular = {};

@@ -288,7 +288,8 @@ bool LightRecords::is_dark(const Grid& grid, size_t l, const Sphere& points) con
     const bool seen = bindings_.binding(grid.look->index, l).seen;
     // Emission ends with the rays that would find it: it is the first bounce of indirect light.
     if (const AreaLight* area = area_lights_.find(l);
-        area && area->emits && is_too_deep(row_of(RayKind::Indirect), grid))
+        area && area->emits &&
+        is_too_deep(row_of(RayKind::Indirect), grid, look_of_light(frame_, l)))
         return true;
     return (only != kNone && l != only) || !seen || !reaches(reaches_[l], points);
 }
