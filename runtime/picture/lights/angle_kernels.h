@@ -42,6 +42,8 @@ struct PlaneFacets {
 
 struct AngleKernels {
     const char* name;
+    // Finds first, last, angle and start of rectangles from the rest.
+    void (*see_rectangles)(RectangleLanes& seen);
     // Places on rectangles, from the corner that x[0] and y[0] are, for u and v in [0, 1).
     void (*to_rectangles)(const RectangleLanes& seen, const AngleLanes& u, const AngleLanes& v,
                           AngleLanes& x, AngleLanes& y);

@@ -8,6 +8,7 @@
 
 #include "runtime/base/kernel_math.h"
 #include "runtime/picture/lights/angle_kernels.h"
+#include "runtime/picture/lights/angles.h"
 
 namespace kinora {
 namespace {
@@ -19,6 +20,37 @@ constexpr double kWholeTurn = 6.283185307179586477;
 __attribute__((always_inline)) inline double held(double x, double low, double high) {
     const double above = x < low ? low : x;
     return above > high ? high : above;
+}
+
+// The inner angle at a corner, where the planes through two sides meet, whose normals are `z` along
+// z and `across` along the sides' axes.
+__attribute__((always_inline)) inline double corner_angle(double z0, double across0, double z1,
+                                                          double across1) {
+    const double sine2 = across0 * across0 + z0 * z0 * (across1 * across1);
+    return angle_of(__builtin_sqrt(sine2), -z0 * z1);
+}
+
+// The angles come from sines and cosines together, so that small ones keep their digits. The
+// normals look outwards, as -y, x, y and -x do.
+void see_rectangles(RectangleLanes& seen) {
+    KINORA_LANES {
+        const double z = seen.z[i], x0 = seen.x[0][i], x1 = seen.x[1][i], y0 = seen.y[0][i],
+                     y1 = seen.y[1][i];
+        const double to_y0 = __builtin_sqrt(y0 * y0 + z * z),
+                     to_y1 = __builtin_sqrt(y1 * y1 + z * z),
+                     to_x0 = __builtin_sqrt(x0 * x0 + z * z),
+                     to_x1 = __builtin_sqrt(x1 * x1 + z * z);
+        const double below = -(y0 / to_y0), above = y1 / to_y1, left = -(x0 / to_x0),
+                     right = x1 / to_x1;
+        const double at_y0 = z / to_y0, at_y1 = z / to_y1, at_x0 = z / to_x0, at_x1 = z / to_x1;
+        const double start = kWholeTurn - corner_angle(above, at_y1, left, at_x0) -
+                             corner_angle(left, at_x0, below, at_y0);
+        seen.first[i] = below;
+        seen.last[i] = above;
+        seen.start[i] = start;
+        seen.angle[i] = corner_angle(below, at_y0, right, at_x1) +
+                        corner_angle(right, at_x1, above, at_y1) - start;
+    }
 }
 
 // The part u of the solid angle lies before the plane x; along the line there, heights on the
@@ -98,7 +130,7 @@ void to_spheres(const SphereLanes& seen, const AngleLanes& u, const AngleLanes& 
 
 }  // namespace
 
-extern const AngleKernels KINORA_KERNEL_TABLE(Angles) = {KINORA_INSTRUCTION_SET, to_rectangles,
-                                                         on_facets, to_spheres};
+extern const AngleKernels KINORA_KERNEL_TABLE(Angles) = {KINORA_INSTRUCTION_SET, see_rectangles,
+                                                         to_rectangles, on_facets, to_spheres};
 
 }  // namespace kinora

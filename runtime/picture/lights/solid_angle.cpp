@@ -1,15 +1,9 @@
 // runtime/picture/lights/solid_angle.cpp: the solid angles of rectangles and spheres.
-//
-// C. Urena, M. Fajardo, A. King, An Area-Preserving Parametrization for Spherical Rectangles, 2013.
-// The angles between the planes through the point and the sides come from sines and cosines
-// together, so that small ones keep their digits.
 #include "runtime/picture/lights/solid_angle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include "runtime/picture/lights/angles.h"
 
 namespace kinora {
 
@@ -24,27 +18,6 @@ constexpr double kLeastSine2 = 1e-10;
 constexpr double kOutside = 1 + 1e-4;  // of the radius: the distance of points outside
 constexpr double kSlack = 1e-3;        // of the radius: about what a ray may meet of a sphere
 
-// The normal of the plane through the point and a side: along z, and along the side's own axis.
-struct Normal {
-    Normal(double side, double z) {
-        const double length = std::sqrt(side * side + z * z);
-        along_z = side / length;
-        across = z / length;
-    }
-    Normal operator-() const {
-        Normal turned = *this;
-        turned.along_z = -along_z;
-        return turned;
-    }
-    double along_z, across;
-};
-
-// The inner angle at a corner, where the planes of two such normals meet.
-double corner_angle(const Normal& a, const Normal& b) {
-    const double sine2 = a.across * a.across + a.along_z * a.along_z * b.across * b.across;
-    return angle_of(std::sqrt(sine2), -a.along_z * b.along_z);
-}
-
 // 1 - the cosine of a cone's half angle.
 double opening_of(double sine2) {
     return sine2 / (1 + std::sqrt(1 - sine2));
@@ -52,39 +25,43 @@ double opening_of(double sine2) {
 
 }  // namespace
 
-SolidAngle::SolidAngle(const LampShape& shape, dvec3 P) {
-    if (shape.kind == LampShape::Kind::Rectangle) see_rectangle(shape, P);
-    if (shape.kind == LampShape::Kind::Sphere) see_sphere(shape, P);
+void see_rectangles(const LampShape& shape, std::span<const dvec3> points, RectangleLanes& lanes,
+                    double (&density)[kAngleLanes]) {
+    bool stands_off[kAngleLanes];
+    for (size_t i = 0; i < kAngleLanes; ++i) {
+        const dvec3 to_corner = shape.corner - points[std::min(i, points.size() - 1)];
+        lanes.x[0][i] = glm::dot(to_corner, shape.axis[0]);
+        lanes.y[0][i] = glm::dot(to_corner, shape.axis[1]);
+        lanes.x[1][i] = lanes.x[0][i] + shape.side[0];
+        lanes.y[1][i] = lanes.y[0][i] + shape.side[1];
+        const double z = std::abs(glm::dot(to_corner, shape.axis[2]));
+        stands_off[i] = z > kLeastHeight * std::max(shape.side[0], shape.side[1]);
+        lanes.z[i] = stands_off[i] ? z : 1.0;
+    }
+    angle_kernels().see_rectangles(lanes);
+    for (size_t i = 0; i < kAngleLanes; ++i)
+        density[i] = stands_off[i] && lanes.angle[i] > kLeastAngle ? 1 / lanes.angle[i] : 0.0;
 }
 
-void SolidAngle::see_rectangle(const LampShape& shape, dvec3 P) {
-    const dvec3 to_corner = shape.corner - P;
-    x_[0] = glm::dot(to_corner, shape.axis[0]);
-    y_[0] = glm::dot(to_corner, shape.axis[1]);
-    x_[1] = x_[0] + shape.side[0];
-    y_[1] = y_[0] + shape.side[1];
-    z_ = std::abs(glm::dot(to_corner, shape.axis[2]));
-    if (!(z_ > kLeastHeight * std::max(shape.side[0], shape.side[1]))) return;
-    // The normals look outwards, as -y, x, y and -x do.
-    const Normal below = -Normal(y_[0], z_), above(y_[1], z_), left = -Normal(x_[0], z_),
-                 right(x_[1], z_);
-    first_ = below.along_z;
-    last_ = above.along_z;
-    start_ = 2 * kPi - corner_angle(above, left) - corner_angle(left, below);
-    angle_ = corner_angle(below, right) + corner_angle(right, above) - start_;
-    if (angle_ > kLeastAngle) density_ = 1 / angle_;
+SolidAngle::SolidAngle(const LampShape& shape, dvec3 P) {
+    if (shape.kind == LampShape::Kind::Rectangle) {
+        double density[kAngleLanes];
+        see_rectangles(shape, {&P, 1}, rectangle_, density);
+        density_ = density[0];
+    }
+    if (shape.kind == LampShape::Kind::Sphere) see_sphere(shape, P);
 }
 
 void SolidAngle::put(RectangleLanes& lanes, size_t lane) const {
     for (int k = 0; k < 2; ++k) {
-        lanes.x[k][lane] = x_[k];
-        lanes.y[k][lane] = y_[k];
+        lanes.x[k][lane] = rectangle_.x[k][0];
+        lanes.y[k][lane] = rectangle_.y[k][0];
     }
-    lanes.z[lane] = z_;
-    lanes.first[lane] = first_;
-    lanes.last[lane] = last_;
-    lanes.angle[lane] = angle_;
-    lanes.start[lane] = start_;
+    lanes.z[lane] = rectangle_.z[0];
+    lanes.first[lane] = rectangle_.first[0];
+    lanes.last[lane] = rectangle_.last[0];
+    lanes.angle[lane] = rectangle_.angle[0];
+    lanes.start[lane] = rectangle_.start[0];
 }
 
 void SolidAngle::see_sphere(const LampShape& shape, dvec3 P) {

@@ -1,11 +1,21 @@
 // runtime/picture/lights/solid_angle.h: the directions in which a point sees a lamp.
 #pragma once
 
+#include <span>
+
 #include "runtime/picture/lights/angle_kernels.h"
 #include "runtime/picture/lights/lamp_shape.h"
 
 namespace kinora {
 
+// A rectangle as up to sixteen points see it; lanes behind the last point are as its. The density
+// of samples that are even in its solid angle is 0 where the angle is too small, or the point too
+// near.
+void see_rectangles(const LampShape& shape, std::span<const dvec3> points, RectangleLanes& lanes,
+                    double (&density)[kAngleLanes]);
+
+// As one point sees a shape.
+//
 // Numbers are found by operations that IEEE 754 rounds exactly, so all machines have the same bits.
 class SolidAngle {
   public:
@@ -24,12 +34,10 @@ class SolidAngle {
     double sure() const { return sure_; }
 
   private:
-    void see_rectangle(const LampShape& shape, dvec3 P);
     void see_sphere(const LampShape& shape, dvec3 P);
 
     double density_ = 0;
-    // Of a rectangle, as in RectangleLanes.
-    double x_[2], y_[2], z_, first_, last_, angle_, start_;
+    RectangleLanes rectangle_;  // its first lane
     // Of a sphere, as in SphereLanes.
     dvec3 axis_[3];
     double opening_, near_ = 0, far_ = 0, sure_ = 0;

@@ -43,15 +43,32 @@ void LampSampler::see(Arena& arena) {
     rectangles_ = arena.allocate_span<RectangleLanes>(sphere ? 0 : rows);
     std::fill(by_angle_.begin(), by_angle_.end(), uint16_t(0));
     std::fill(on_way_.begin(), on_way_.end(), uint16_t(0));
-    for (size_t i = 0; i < at_.count; ++i) {
+    for (size_t row = 0; row < rows; ++row) sphere ? see_sphere(row) : see_rectangle(row);
+}
+
+void LampSampler::see_rectangle(size_t row) {
+    const size_t first = row * kRow, count = std::min(kRow, at_.count - first);
+    dvec3 points[kRow];
+    double density[kRow];
+    for (size_t j = 0; j < count; ++j) points[j] = dvec3(triple(at_.accel, first + j));
+    see_rectangles(light_.shape, {points, count}, rectangles_[row], density);
+    for (size_t j = 0; j < count; ++j) take_density(first + j, density[j]);
+}
+
+void LampSampler::see_sphere(size_t row) {
+    const size_t first = row * kRow, end = std::min(first + kRow, at_.count);
+    for (size_t i = first; i < end; ++i) {
         const SolidAngle seen(light_.shape, dvec3(triple(at_.accel, i)));
-        density_[i] = LightSamples::kByArea;
+        take_density(i, seen.density());
         if (!(seen.density() > 0)) continue;
-        density_[i] = float(seen.density());
-        by_angle_[i / kRow] |= uint16_t(1u << i % kRow);
-        sphere ? seen.put(spheres_[i / kRow], i % kRow) : seen.put(rectangles_[i / kRow], i % kRow);
-        if (sphere) reach_[i] = vec3(seen.near(), seen.far(), seen.sure());
+        seen.put(spheres_[row], i % kRow);
+        reach_[i] = vec3(seen.near(), seen.far(), seen.sure());
     }
+}
+
+void LampSampler::take_density(size_t point, double density) {
+    density_[point] = density > 0 ? float(density) : LightSamples::kByArea;
+    by_angle_[point / kRow] |= uint16_t(density > 0) << point % kRow;
 }
 
 float LampSampler::density(size_t point) const {

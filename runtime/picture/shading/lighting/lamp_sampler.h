@@ -38,6 +38,9 @@ class LampSampler {
     using Row = std::span<const Ray, kAngleLanes>;
 
     void see(Arena& arena);
+    void see_rectangle(size_t row);
+    void see_sphere(size_t row);
+    void take_density(size_t point, double density);
     size_t point_of(size_t row) const { return std::min(row, at_.count - 1); }
     void choose_by_area(size_t first, const AngleLanes& u, const AngleLanes& v,
                         LightSamples& samples) const;
