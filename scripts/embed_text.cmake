@@ -1,6 +1,7 @@
 # embed_text(FILE NAMESPACE STRUCT ARRAY NAME|NAME_WE PATTERN...): writes FILE in the build folder, a C++
 # source whose ARRAY of STRUCT {name, text} holds the files that match a PATTERN. Made again when one
-# of them changes.
+# of them changes. Headers lose // comments, but the first line's, and spaces before line breaks; what is left keeps its
+# line and column.
 function(embed_text file namespace struct array name_part)
     file(GLOB text_files CONFIGURE_DEPENDS ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${text_files})
@@ -8,6 +9,11 @@ function(embed_text file namespace struct array name_part)
     foreach(text_file ${text_files})
         get_filename_component(name ${text_file} ${name_part})
         file(READ ${text_file} text)
+        if(text_file MATCHES "[.]h$")
+            string(REGEX REPLACE "\n[ \t]*//[^\n]*" "\n" text "${text}")
+            string(REGEX REPLACE "[ \t]+//[^\n]*" "" text "${text}")
+            string(REGEX REPLACE "[ \t]+([\\]?\n)" " \\1" text "${text}")
+        endif()
         string(APPEND data "{\"${name}\", R\"SL(${text})SL\"},\n")
     endforeach()
     string(APPEND data "{nullptr, nullptr}};\nconst size_t ${array}Count = sizeof ${array} / sizeof ${array}[0] - 1;\n}  // ${namespace}\n")

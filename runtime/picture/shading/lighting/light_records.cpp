@@ -76,6 +76,16 @@ const float* record_uniforms(const Pose& pose, Arena& arena, const LightOutputs&
     return uniforms;
 }
 
+bool gathers_indirect(const Grid& grid) {
+    return calls_service(grid.look->full, RayKind::Indirect);
+}
+
+void shadow_sample(Grid& grid, const LightPoints& at, const SentLight& sent) {
+    if (!grid.shadows) return;
+    if (at.own) drop_behind(seen_points(grid), grid.memory.arena, {&sent, 1});
+    if (sent.casts) grid.shadows->cast(grid, at, sent);
+}
+
 }  // namespace
 
 LightRecords::LightRecords(const ShadingFrame& frame, KernelRunner& kernels)
@@ -106,14 +116,10 @@ size_t LightRecords::asked_samples(size_t light, const LightOutputs& statement,
     return wide ? light_samples(frame_, light, beside_indirect) : 1;
 }
 
-bool LightRecords::beside_indirect(const Grid& grid) const {
-    return sends_indirect_ || calls_service(grid.look->full, RayKind::Indirect);
-}
-
 size_t LightRecords::samples_of(size_t light, const LightOutputs& statement,
                                 const Grid& grid) const {
-    return size_t(
-        samples_at(grid.ray, int(asked_samples(light, statement, beside_indirect(grid)))));
+    return size_t(samples_at(
+        grid.ray, int(asked_samples(light, statement, sends_indirect_ || gathers_indirect(grid)))));
 }
 
 void LightRecords::begin_frame(bool all, ThreadMemory& memory) {
@@ -175,14 +181,11 @@ void LightRecords::find_others() {
             others_.records += asked_samples(l, statement, false);
 }
 
-size_t LightRecords::most_records(const ShaderInstance& look) const {
-    return chooses(look) ? others_.records : all_lights_.records;
-}
-
 size_t LightRecords::most_points(const ShaderInstance& look) const {
     constexpr size_t kCacheBytes = 1 << 20, kRecordBytes = 7 * sizeof(float);  // L, Cl and lit
     constexpr size_t kLeast = 64;
-    const size_t points = kCacheBytes / (kRecordBytes * std::max<size_t>(most_records(look), 1));
+    const size_t records = chooses(look) ? others_.records : all_lights_.records;
+    const size_t points = kCacheBytes / (kRecordBytes * std::max<size_t>(records, 1));
     return std::clamp(points / kLeast * kLeast, kLeast, kGridPoints);
 }
 
@@ -352,13 +355,6 @@ void LightRecords::shadow(const Making& making) const {
         if (light.casts) grid.shadows->cast(grid, making.at, light);
 }
 
-void LightRecords::shadow_sample(const Making& making, const SentLight& sent) const {
-    Grid& grid = making.grid;
-    if (!grid.shadows) return;
-    if (making.at.own) drop_behind(seen_points(grid), grid.memory.arena, {&sent, 1});
-    if (sent.casts) grid.shadows->cast(grid, making.at, sent);
-}
-
 LightRecords::LitGrid::LitGrid(const Making& making, size_t light)
     : Grid(making.grid.frame, making.grid.memory, making.grid.hits,
            making.grid.points.subspan(making.at.first, making.at.count),
@@ -371,8 +367,8 @@ void LightRecords::prepare(const Making& making, size_t l, Grid& lit, LightAnswe
     Arena& arena = grid.memory.arena;
     lit.depth = grid.depth;
     lit.ray = grid.ray;
-    lit.lamp_samples =
-        uint32_t(samples_at(grid.ray, int(light_samples(frame_, l, beside_indirect(grid)))));
+    lit.lamp_samples = uint32_t(samples_at(
+        grid.ray, int(light_samples(frame_, l, sends_indirect_ || gathers_indirect(grid)))));
     lit.shadows = grid.shadows;
     lit.answer = answer;
     if (answer) lit.series = at.series;
@@ -523,7 +519,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         }
         const bool shines = sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
         if (shines && sample)
-            shadow_sample(making, sent);
+            shadow_sample(making.grid, at, sent);
         else
             making.sent_count += shines;
     }

@@ -78,7 +78,6 @@ class LightRecords {
     void find_others();
     // Whether points of the look are lit by a few of many lights.
     bool chooses(const ShaderInstance& look) const;
-    size_t most_records(const ShaderInstance& look) const;
     void chosen_records(Making& making, const LampGroup& group);
     // All that a light's kernel reads, and its run.
     struct LitGrid : Grid {  // the lit points, for the light's kernel
@@ -96,7 +95,6 @@ class LightRecords {
     // the kernel's outputs.
     void add_sample(Making& making, size_t light, std::span<float* const> out,
                     SampleColumnList sample) const;
-    void keep_counts(Making& making, size_t light, const float* counts) const;
     // What one light sends from the directions of samplinglights.
     jit::RecordSet records_along(Grid& grid, const LightPoints& at,
                                  const ChosenDirections& directions);
@@ -116,7 +114,6 @@ class LightRecords {
                       std::span<float* const> out) const;
     // Records of a statement of the light: where the grid has no part in it, and for its points.
     size_t asked_samples(size_t light, const LightOutputs& statement, bool beside_indirect) const;
-    bool beside_indirect(const Grid& grid) const;
     size_t samples_of(size_t light, const LightOutputs& statement, const Grid& grid) const;
     // Of a light that reaches none of the points.
     void dark_records(Making& making, size_t light) const;
@@ -129,7 +126,6 @@ class LightRecords {
                      const LightSamples* samples) const;
     // Leaves in the colours what arrives. Of a light on geometry at once: its sample goes with it.
     void shadow(const Making& making) const;
-    void shadow_sample(const Making& making, const SentLight& sent) const;
 
     const ShadingFrame& frame_;
     KernelRunner& kernels_;

@@ -1,5 +1,6 @@
 // runtime/picture/shading/lighting/sampled_records.cpp: records of lights with sample methods:
-// their samples at lit points, and what they send from directions that a material has chosen.
+// their samples at lit points, and what they send from directions that a material has chosen; the
+// services that ask for records.
 //
 // Cl of a sample is radiance / (PI x density), density being the number of samples x pdf: the sum
 // over the samples is then the light that a point light of Cl would give, for diffuse() and for
@@ -83,6 +84,26 @@ int32_t domain_of(const ShaderInstance& look) {
 
 }  // namespace
 
+namespace {
+
+// Beside each other for all points of the grid: records at other points are made lane by lane.
+void keep_counts(Grid& grid, const LightPoints& at, size_t l, const float* counts) {
+    Arena& arena = grid.memory.arena;
+    if (grid.sample_counts.empty()) {
+        grid.sample_counts = arena.allocate_span<float*>(grid.frame.lights.lights.size());
+        std::fill(grid.sample_counts.begin(), grid.sample_counts.end(), nullptr);
+    }
+    float*& row = grid.sample_counts[l];
+    if (!row) {
+        std::span<float> all = arena.allocate_span<float>(padded(grid.count()));
+        std::fill(all.begin(), all.end(), 0.0f);
+        row = all.data();
+    }
+    std::copy_n(counts, at.count, row + at.first);
+}
+
+}  // namespace
+
 void LightRecords::sampled_records(Making& making, size_t l) {
     Arena& arena = making.grid.memory.arena;
     LightQuestion question;
@@ -92,25 +113,8 @@ void LightRecords::sampled_records(Making& making, size_t l) {
     std::span<float*> out = run_kernel(making, l, lit, &answer);
     const CountedSamples samples(answer, making.at, making.grid.ray.most_samples, uint32_t(l),
                                  arena);
-    keep_counts(making, l, samples.counts());
+    keep_counts(making.grid, making.at, l, samples.counts());
     for (size_t k = 0; k < samples.most(); ++k) sample_record(making, l, samples, k, out);
-}
-
-// Beside each other for all points of the grid: records at other points are made lane by lane.
-void LightRecords::keep_counts(Making& making, size_t l, const float* counts) const {
-    Grid& grid = making.grid;
-    Arena& arena = grid.memory.arena;
-    if (grid.sample_counts.empty()) {
-        grid.sample_counts = arena.allocate_span<float*>(frame_.lights.lights.size());
-        std::fill(grid.sample_counts.begin(), grid.sample_counts.end(), nullptr);
-    }
-    float*& row = grid.sample_counts[l];
-    if (!row) {
-        std::span<float> all = arena.allocate_span<float>(padded(grid.count()));
-        std::fill(all.begin(), all.end(), 0.0f);
-        row = all.data();
-    }
-    std::copy_n(counts, making.at.count, row + making.at.first);
 }
 
 void LightRecords::sample_record(Making& making, size_t l, const CountedSamples& samples, size_t k,
@@ -158,6 +162,90 @@ void LightRecords::record_along(Making& making, size_t l, const ChosenDirections
         sample.set(i, at.L, asks ? at.Cl * sample_weight(own, lights, power) : vec3(0.0f), lights);
     }
     add_sample(making, l, out, sample.columns());
+}
+
+// ---- services
+// ------------------------------------------------------------------------------------
+
+namespace {
+
+// A part of the grid asks: one lane group at its own points. Records of a group that is done are
+// let go, or a marching loop would keep them all. The handle of the call's records.
+uint32_t next_handle(Grid& grid, int32_t first) {
+    Arena& arena = grid.memory.arena;
+    if (grid.record_group != first) {
+        if (grid.record_group >= 0) arena.release(grid.record_mark);
+        grid.record_mark = arena.mark();
+        grid.record_group = first;
+        grid.record_calls = 0;
+    }
+    const uint32_t handle = grid.next_record_set;
+    grid.next_record_set = handle + 1 < kGatherSets ? handle + 1 : 1;
+    return handle;
+}
+
+}  // namespace
+
+int32_t LightRecords::at(Grid& grid, const jit::ServiceCall& call) {
+    const uint32_t handle = next_handle(grid, call.first);
+    if (++grid.record_calls > kMostLightQuestions) {
+        grid.memory.counters.unlit += 1;
+        grid.record_sets[handle] = {};
+    } else {
+        grid.record_sets[handle] = make_records(grid, points_of(grid, call));
+    }
+    return int32_t(handle);
+}
+
+bool LightRecords::notes_directions(const Grid& grid) const {
+    return grid.lit_points && grid.look->lowered.lit_by_samples &&
+           (!sampling_.empty() || !area_lights_.all().empty());
+}
+
+void LightRecords::start_directions(Grid& grid) const {
+    constexpr size_t kMostBytes = 16 << 20, kRecordBytes = 64 * sizeof(float);  // with its making
+    if (!notes_directions(grid)) return;
+    // Few of the lamps on geometry lie along one direction.
+    const size_t lamps = sampling_.size() + std::min<size_t>(area_lights_.all().size(), 2);
+    const size_t most = kMostBytes / (kRecordBytes * lamps * padded(grid.count()));
+    Arena& arena = grid.memory.arena;
+    grid.directions =
+        new (arena.allocate(sizeof(DirectionNotes))) DirectionNotes(grid.count(), most, arena);
+}
+
+void LightRecords::answer_directions(Grid& grid) {
+    StageScope stage(Stage::Lights);
+    LightPoints at = *grid.lit_points;
+    at.own = false;
+    for (DirectionNotes::Round& round : grid.directions->rounds())
+        round.answer = records_along(grid, at, round.directions);
+    grid.directions->rewind();
+}
+
+jit::RecordSet LightRecords::records_along(Grid& grid, const LightPoints& at,
+                                           const ChosenDirections& directions) {
+    Arena& arena = grid.memory.arena;
+    Making making{grid, at, arena.allocate_span<jit::Record>(sampling_.size()),
+                  arena.allocate_span<SentLight>(1)};
+    const Sphere lit = sphere_about(at.P, at.count);
+    for (size_t l : sampling_)
+        if (bindings_.binding(grid.look->index, l).seen && reaches(reaches_[l], lit))
+            record_along(making, l, directions);
+    lamps_along(making, directions);
+    return {int32_t(making.record_count), making.records.data()};
+}
+
+int32_t LightRecords::along(Grid& grid, const jit::ServiceCall& call) {
+    const uint32_t handle = next_handle(grid, call.first);
+    jit::RecordSet& records = grid.record_sets[handle];
+    if (const jit::RecordSet* noted = grid.directions ? grid.directions->find(call) : nullptr) {
+        records = *noted;
+        return int32_t(handle);
+    }
+    const bool own = grid.lit_points && asks_at(*grid.lit_points, call);
+    const LightPoints at = own ? part_of(*grid.lit_points, call) : points_of(grid, call);
+    records = records_along(grid, at, directions_of(call, grid.memory.arena));
+    return int32_t(handle);
 }
 
 }  // namespace kinora

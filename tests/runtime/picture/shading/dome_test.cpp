@@ -309,6 +309,7 @@ TEST(Dome, CountsOnceForEachSurface) {
             SceneOptions options;
             options.indirect = bounces;
             if (bounces) options.quality.diffuse_depth = bounces;
+            options.quality.light_samples = 16;
             Rendering r(around(scene, kColor).text(), options);
             EXPECT_NEAR(mean_of(r, 16, 4).mean, 1, 5e-3) << way << " " << bounces;
         }
