@@ -31,6 +31,7 @@ enum class AovOrigin : uint8_t {
     Surface,   // SurfaceShading::shade
     Samples,   // the integrator: how many samples the pixel has
     Variance,  // the integrator: of the samples' colours, unbiased; 0 with one sample
+    Light,     // SurfaceShading::shade and shade_misses: some of Ci, laid behind what is before it
     Coverage,  // the integrator: twelve planes one behind the other, ids of surfaces and how much
                // of the pixel each covers, by that. SurfaceShading::shade gives the first its ids
     Other,     // the caller, when the film is done
@@ -45,7 +46,7 @@ struct AovPlane {
     bool in_file = true;             // false: for imagers and displays
     float background = 0;            // where the filter has no sample; Mean: always 0
     AovOrigin origin = AovOrigin::Surface;
-    int component = 0;       // of the colour that a variance is of; of twelve
+    int component = 0;       // of the colour that a variance or light is of; of twelve
     std::string layer = {};  // the AOV that it is a channel of; "": one of its own
     bool half = false;       // in a file
     bool exact = false;      // not a digit may go in a file

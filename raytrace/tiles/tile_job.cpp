@@ -254,7 +254,10 @@ void TileJob::shade_misses(const HitBatch& hits) {
     const HitBatch& ends = missed(m_.rays, hits, shading_.miss_distance(), m_.misses);
     if (ends.count == 0) return;
     shade(ends, Ends::Nothing);
-    for (size_t k = 0; k < ends.count; ++k) lay_behind(ends, k);
+    for (size_t k = 0; k < ends.count; ++k) {
+        if (planes_.has_light()) lay_light(plane_hit(ends, k), ends, k);
+        lay_behind(ends, k);
+    }
 }
 
 void TileJob::shade(const HitBatch& hits, Ends ends) {
@@ -341,11 +344,22 @@ double TileJob::hidden_by(const HitBatch& hits, size_t k) const {
     return hidden;
 }
 
+TilePlanes::Hit TileJob::plane_hit(const HitBatch& hits, size_t k) const {
+    const size_t slot = m_.rays.slot[hits.ray[k]];
+    return {k, pixel_of(slot), hits.sample[k], weight_of(slot)};
+}
+
+void TileJob::lay_light(const TilePlanes::Hit& hit, const HitBatch& hits, size_t k) {
+    const size_t slot = m_.rays.slot[hits.ray[k]];
+    const float through[3] = {m_.through[0][slot], m_.through[1][slot], m_.through[2][slot]};
+    planes_.lay(hit, through, m_.aov_pointers);
+}
+
 void TileJob::keep_planes(const HitBatch& hits) {
     if (film_.aovs.empty()) return;
     for (size_t k = 0; k < hits.count; ++k) {
-        const size_t slot = m_.rays.slot[hits.ray[k]];
-        const TilePlanes::Hit hit{k, pixel_of(slot), hits.sample[k], weight_of(slot)};
+        const TilePlanes::Hit hit = plane_hit(hits, k);
+        if (planes_.has_light()) lay_light(hit, hits, k);
         if (planes_.has_coverage()) planes_.cover(hit, hidden_by(hits, k), m_.aov_pointers);
         if (shows_first(hits, k)) planes_.keep(hit, m_.aov_pointers);
     }

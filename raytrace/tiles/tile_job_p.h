@@ -92,6 +92,8 @@ class TileJob {
     bool mend_hit(size_t k);
     bool shows_first(const HitBatch& hits, size_t k) const;
     double hidden_by(const HitBatch& hits, size_t k) const;
+    TilePlanes::Hit plane_hit(const HitBatch& hits, size_t k) const;
+    void lay_light(const TilePlanes::Hit& hit, const HitBatch& hits, size_t k);
     void keep_planes(const HitBatch& hits);
     void count_samples();
     void composite(const HitBatch& hits);

@@ -72,7 +72,8 @@ TilePlanes::TilePlanes(const Film& film, const IntegratorSettings& settings,
       m_(memory),
       has_nearest_(any_nearest(film.aovs)),
       has_variance_(any_variance(film.aovs)),
-      has_coverage_(std::ranges::any_of(film.aovs, is_coverage)) {}
+      has_coverage_(std::ranges::any_of(film.aovs, is_coverage)),
+      has_light_(std::ranges::count(film.aovs, AovOrigin::Light, &AovPlane::origin) > 0) {}
 
 void TilePlanes::begin(const PixelSet& pixels) {
     if (film_.aovs.empty()) return;
@@ -137,6 +138,14 @@ void TilePlanes::keep(const Hit& hit, std::span<float* const> shaded) {
     }
 }
 
+void TilePlanes::lay(const Hit& hit, const float through[3], std::span<float* const> shaded) {
+    for (size_t p = 0; p < film_.aovs.size(); ++p)
+        if (film_.aovs[p].origin == AovOrigin::Light)
+            m_.sums[p][hit.pixel] += double(through[film_.aovs[p].component]) *
+                                     double(shaded[p][hit.at]) * hit.weight /
+                                     settings_.samples_per_pixel;
+}
+
 void TilePlanes::cover(const Hit& hit, double part, std::span<float* const> shaded) {
     if (part == 0) return;
     for (size_t p = 0; p < film_.aovs.size(); ++p)
@@ -193,6 +202,7 @@ float TilePlanes::value(size_t plane, size_t pixel) const {
     const AovPlane& of = film_.aovs[plane];
     switch (of.origin) {
         case AovOrigin::Surface:
+        case AovOrigin::Light:
         case AovOrigin::Coverage:
             break;
         case AovOrigin::Samples:

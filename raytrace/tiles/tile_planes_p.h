@@ -49,6 +49,9 @@ class TilePlanes {
     void keep(const Hit& hit, std::span<float* const> shaded);
     // Any hit of a sample, and how much of what lay behind it hides: once Ci and Oi are known.
     void cover(const Hit& hit, double part, std::span<float* const> shaded);
+    // Any hit or miss of a sample, and what is before it lets through.
+    void lay(const Hit& hit, const float through[3], std::span<float* const> shaded);
+    bool has_light() const { return has_light_; }
     bool has_coverage() const { return has_coverage_; }
     // After the last sample.
     void finish();
@@ -68,7 +71,7 @@ class TilePlanes {
     const IntegratorSettings& settings_;
     const FilterTable* filter_;
     PlaneMemory& m_;
-    bool has_nearest_ = false, has_variance_ = false, has_coverage_ = false;
+    bool has_nearest_ = false, has_variance_ = false, has_coverage_ = false, has_light_ = false;
 };
 
 }  // namespace kinora::raytrace

@@ -23,7 +23,10 @@ enum LightColumn {
     // number times the pdf. 0 where there is no sample, and in all other records.
     kLightDensity = 10,
     kLightBare = 11,  // Cl before shadow rays, where the surface reads it
-    kLightMessages = 14,
+    // int, of renderers: the light's number and 1, where points have different lights. No shader
+    // reads it; null elsewhere.
+    kLightLamp = 14,
+    kLightMessages = 15,
     // No column of a record, but an output of light kernels: the angle, radians, between the axis
     // of solar and the side of the cone that light comes from.
     kLightSpread = 255

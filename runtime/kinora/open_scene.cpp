@@ -47,6 +47,7 @@ SceneOptions scene_options(const SceneRequest& request) {
     o.background_rebuilds = false;  // a frame depends on its time alone
     o.decode_textures = encoding_of(request) == ColorEncoding::Srgb;
     o.aovs = request.aovs;
+    o.light_groups = request.light_groups;
     o.trees = request.trees;
     o.displays = request.displays;
     o.print = request.print;

@@ -53,6 +53,7 @@ struct SceneRequest {
     int world = -1;          // of the pictures in a RIB file; -1: the last
     std::shared_ptr<raytrace::KeptTrees> trees;  // SceneOptions::trees
     std::vector<std::string> aovs;               // NAME or NAME:FILTER: runtime/scene/aovs
+    std::vector<std::string> light_groups;       // SceneOptions::light_groups
     bool displays = false;  // the displays that a file has besides its picture are wanted
     std::vector<std::string> include_directories;
     std::optional<UpAxis> up_axis;

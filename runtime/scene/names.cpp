@@ -1,8 +1,10 @@
 // runtime/scene/names.cpp: names of nodes, materials and surfaces.
 #include "runtime/scene/names.h"
 
+#include <cctype>
 #include <map>
 
+#include "runtime/scene/aovs/aovs.h"
 #include "runtime/scene/description/play_range.h"
 
 namespace kinora {
@@ -25,6 +27,23 @@ std::string node_path(const SceneNodes& scene, uint32_t node) {
         path = name + (path.empty() ? "" : "/" + path);
     }
     return path;
+}
+
+std::vector<std::string> light_aov_names(const SceneNodes& nodes, const SceneLights& lights) {
+    std::vector<std::string> names;
+    std::map<std::string, int> used{{"light_rest", 1}};
+    for (const LightSource& source : lights.lights) {
+        const NodeDefinition& node = nodes.description->nodes[nodes.nodes[source.node].definition];
+        const LightDefinition& light = nodes.description->lights[source.definition];
+        const std::string& of_node = shown_name(node.id, node.name);
+        std::string name(kLightAov);
+        for (char c : of_node.empty() ? shown_name(light.id, light.name) : of_node)
+            name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' ? c : '_';
+        for (std::string first = name; used[name]++ > 0;)
+            name = first + "_" + std::to_string(used[first]);
+        names.push_back(std::move(name));
+    }
+    return names;
 }
 
 std::string material_name(const SceneDescription& description, uint32_t material) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/scene/lights.h"
 #include "runtime/scene/nodes.h"
 #include "runtime/scene/shapes.h"
 
@@ -16,6 +17,10 @@ const std::string& shown_name(const std::string& id, const std::string& name);
 // "torso/head/eye", by ids; of a node with neither id nor name its number from 1: "#7".
 std::string number_name(uint32_t node);
 std::string node_path(const SceneNodes& scene, uint32_t node);
+
+// Of each light what its AOV is called: "light_" and the name of its node, else its own, in letters
+// that channels may have. Lights of one name are told apart by a number.
+std::vector<std::string> light_aov_names(const SceneNodes& nodes, const SceneLights& lights);
 
 // The name of a surface's material; "default" where it has none.
 std::string material_name(const SceneDescription& description, uint32_t material);

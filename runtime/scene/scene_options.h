@@ -46,13 +46,14 @@ struct SceneOptions {
     Quality quality;                      // kernels are made for it, and frames obey it
     const jit::Target* target = nullptr;  // null: the best of this CPU
     LightSet lights = LightSet::Auto;
-    uint32_t indirect = 0;            // bounces of indirect light that every scene has
-    bool background_rebuilds = true;  // of the ray tracer's trees; false: within a frame
-    double low_limit = 3;             // raytrace::AccelPolicy::low_limit
-    bool decode_textures = true;      // 8-bit colours from sRGB; false: --color legacy
-    std::vector<std::string> aovs;    // that the picture keeps: runtime/scene/aovs
-    bool displays = false;            // those that the file's displays show, too
-    double frame_rate = 0;            // frames a second that option("Frame") counts; 0: the file's
+    uint32_t indirect = 0;                  // bounces of indirect light that every scene has
+    bool background_rebuilds = true;        // of the ray tracer's trees; false: within a frame
+    double low_limit = 3;                   // raytrace::AccelPolicy::low_limit
+    bool decode_textures = true;            // 8-bit colours from sRGB; false: --color legacy
+    std::vector<std::string> aovs;          // that the picture keeps: runtime/scene/aovs
+    std::vector<std::string> light_groups;  // NAME=GLOB,...: AOVs of those lights
+    bool displays = false;                  // those that the file's displays show, too
+    double frame_rate = 0;  // frames a second that option("Frame") counts; 0: the file's
     // Range played, seconds: what added cameras frame, and its views tell how fine to dice.
     double start_time = 0, end_time = 0;
     std::shared_ptr<raytrace::KeptTrees> trees;  // of the pictures of one film; null: none are kept

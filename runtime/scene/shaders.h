@@ -22,6 +22,7 @@ struct OutputPlane {
     int element = -1;     // of an array; -1: it is none
     bool in_file = true;  // false: only an imager or a display reads it
     AovSource source = AovSource::Kernel;
+    std::vector<uint32_t> lights = {};  // AovSource::Light: of Scene::lights
     raytrace::AovFilter filter = raytrace::AovFilter::Mean;
     float background = 0;
     bool half = false;   // in a file

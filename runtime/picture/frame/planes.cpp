@@ -7,8 +7,8 @@ namespace kinora {
 
 namespace {
 
-raytrace::AovOrigin origin_of(AovSource source) {
-    switch (source) {
+raytrace::AovOrigin origin_of(const OutputPlane& plane) {
+    switch (plane.source) {
         case AovSource::Kernel:
         case AovSource::Distance:
         case AovSource::Surface:
@@ -16,8 +16,16 @@ raytrace::AovOrigin origin_of(AovSource source) {
         case AovSource::Material:
         case AovSource::Motion:
         case AovSource::Albedo:
-        case AovSource::Emission:
+        case AovSource::Shadow:
             return raytrace::AovOrigin::Surface;
+        // Other filters are of the first surface.
+        case AovSource::Emission:
+        case AovSource::Direct:
+        case AovSource::Indirect:
+        case AovSource::Light:
+        case AovSource::Rest:
+            return plane.filter == raytrace::AovFilter::Mean ? raytrace::AovOrigin::Light
+                                                             : raytrace::AovOrigin::Surface;
         case AovSource::CryptoObject:
         case AovSource::CryptoMaterial:
             return raytrace::AovOrigin::Coverage;
@@ -32,8 +40,7 @@ raytrace::AovOrigin origin_of(AovSource source) {
 }
 
 bool is_same(const raytrace::AovPlane& a, const OutputPlane& b) {
-    return a.name == b.name && a.filter == b.filter && a.origin == origin_of(b.source) &&
-           a.half == b.half;
+    return a.name == b.name && a.filter == b.filter && a.origin == origin_of(b) && a.half == b.half;
 }
 
 }  // namespace
@@ -45,7 +52,7 @@ void prepare_planes(const SceneShaders& scene, raytrace::Film& film) {
         raytrace::AovPlane& made = film.add_aov(plane.name, plane.filter);
         made.in_file = plane.in_file;
         made.background = plane.background;
-        made.origin = origin_of(plane.source);
+        made.origin = origin_of(plane);
         made.component = int(plane.component);
         made.layer = plane.layer;
         made.half = plane.half;

@@ -22,6 +22,7 @@ struct LightOutputs {
     bool casts_shadow = false;
     int L[3], Cl[3], Ol[3], lit = -1;
     int spread = -1;                          // of solar with an angle: light comes from a cone
+    int lamp = -1;                            // which light it is, where points have several
     bool sampled = false;                     // the light has sample methods, and no such columns
     int end[3] = {-1, -1, -1}, density = -1;  // of such a sample: where its shadow ray ends
 };

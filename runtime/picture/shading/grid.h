@@ -61,6 +61,7 @@ struct Grid : PicturePoints {
     std::span<PointRays> rays;
     bool goes_on = false;                  // the rays that see the points may go on behind them
     RayNotes* notes = nullptr;             // of calls whose rays wait for those of other points
+    AnswerTape* tape = nullptr;            // of its kernel's calls, for layers of light
     DirectionNotes* directions = nullptr;  // of calls of samplinglights that wait so, if any do
 
     // Something is drawn at random for its points (FirstHits). A light's are those of the surface

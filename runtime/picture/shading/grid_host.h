@@ -46,7 +46,7 @@ class PictureHost : public SceneHost {
 };
 
 // A kernel that shades its points.
-class GridHost final : public PictureHost {
+class GridHost : public PictureHost {
   public:
     using PictureHost::PictureHost;
     void print(const jit::ServiceCall& call) override;
@@ -68,7 +68,7 @@ class NotingHost final : public PictureHost {
 
 // A kernel that runs once more in other light: no ray meets anything, and it prints and bakes
 // nothing.
-class RelitHost final : public PictureHost {
+class RelitHost : public PictureHost {
   public:
     using PictureHost::PictureHost;
     void trace(const jit::ServiceCall& call) override;

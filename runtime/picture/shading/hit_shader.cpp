@@ -12,6 +12,7 @@
 #include "runtime/picture/shading/dome.h"
 #include "runtime/picture/shading/frame/frame.h"
 #include "runtime/picture/shading/frame/insight.h"
+#include "runtime/picture/shading/light_layers.h"
 #include "runtime/picture/shading/lighting/lamps.h"
 #include "runtime/picture/shading/ray_queue.h"
 #include "runtime/picture/shading/relight.h"
@@ -248,6 +249,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
     std::span<const uint32_t> points = grid.points;
     const raytrace::HitBatch& hits = call.hits;
     raytrace::ShadeResult& result = call.result;
+    const bool layered = start_tape(grid, result);
     std::span<float*> out = kernels_.run(look.full, grid);
     if (call.outputs) copy_outputs(*call.outputs, look.full.kernel(), out, points);
     grid.memory.counters.points += grid.count();
@@ -264,6 +266,7 @@ void HitShader::shade_grid(const Call& call, Grid& grid) {
         const uint32_t before = hits.rays->spent[hits.ray[points[i]]];
         result.passages[points[i]] = {rays.onward, rays.reflects, rays.shot - before, rays.kept};
     }
+    if (layered) fill_light_layers(grid, kernels_, Ci, result, call.memory.layer_errors);
     if (frame_.relit && grid.depth == 0) relight(grid, kernels_, result);
     const bool whole = frame_.insight.only_light == kNone;
     if (whole && frame_.pose.watch_dark > 0 && grid.depth == 0) count_dark(grid, result);
@@ -282,6 +285,7 @@ void HitShader::shade_misses(const raytrace::HitBatch& ends, const RayTag& ray,
         std::fill_n(result.Oi[k], ends.count, 0.0f);
     }
     if (dome_.is_seen(ray)) dome_.show(ends, ray, memory, result);
+    fill_layers_of_misses(frame_, ends.count, result);
     volumes_.apply(ends, ray, shadows_, memory, result);
 }
 

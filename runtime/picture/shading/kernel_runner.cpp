@@ -9,6 +9,7 @@
 #include "runtime/base/stage_clock.h"
 #include "runtime/picture/lights/kernels.h"
 #include "runtime/picture/shading/grid_host.h"
+#include "runtime/picture/shading/light_layers.h"
 #include "runtime/scene/description/findings.h"
 
 namespace kinora {
@@ -144,11 +145,9 @@ std::span<float*> KernelRunner::run_in_the_dark(Grid& grid) const {
     return out;
 }
 
-std::span<float*> KernelRunner::run_relit(Grid& grid, const jit::RecordSet& lights) const {
+void KernelRunner::run_again(const BoundKernel& bound, Grid& grid, KernelHost& host,
+                             std::span<float* const> out, const jit::RecordSet& lights) const {
     Arena& arena = grid.memory.arena;
-    const BoundKernel& bound = grid.look->full;
-    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
-    RelitHost host(grid, services_);
     std::span<jit::RecordSet> sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
     std::fill(sets.begin(), sets.end(), jit::RecordSet{});
     sets[0] = lights;
@@ -163,6 +162,24 @@ std::span<float*> KernelRunner::run_relit(Grid& grid, const jit::RecordSet& ligh
                .stop = frame_.stop},
               arena);
     std::swap(sets, grid.record_sets);
+}
+
+std::span<float*> KernelRunner::run_relit(Grid& grid, const jit::RecordSet& lights) const {
+    const BoundKernel& bound = grid.look->full;
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), grid.memory.arena);
+    RelitHost host(grid, services_);
+    run_again(bound, grid, host, out, lights);
+    return out;
+}
+
+std::span<float*> KernelRunner::run_part(const BoundKernel& bound, Grid& grid,
+                                         const LightPart& part) const {
+    Arena& arena = grid.memory.arena;
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
+    const Arena::Mark mark = arena.mark();
+    ReplayHost host(grid, services_, part);
+    run_again(bound, grid, host, out, records_of_part(grid, grid.record_sets[0], part));
+    arena.release(mark);
     return out;
 }
 
@@ -179,7 +196,9 @@ std::span<float*> KernelRunner::run(const BoundKernel& bound, Grid& grid) {
     StageScope stage(Stage::Kernels);
     Arena& arena = grid.memory.arena;
     std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
-    GridHost host(grid, services_);
+    GridHost plain(grid, services_);
+    TapingHost taping(grid, services_);
+    KernelHost& host = grid.tape ? static_cast<KernelHost&>(taping) : plain;
     const jit::Target* target = frame_.resources.options.target;
     const auto lanes = size_t((target ? *target : jit::best_target()).lanes);
     grid.memory.counters.kernel_points += grid.count();

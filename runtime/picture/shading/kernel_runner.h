@@ -13,6 +13,7 @@
 
 namespace kinora {
 
+class KernelHost;
 struct GridServices;
 
 class KernelRunner {
@@ -38,10 +39,17 @@ class KernelRunner {
     // What the look's kernel gives in those lights, without rays; it prints and bakes nothing. The
     // grid's own lights and accounts stay.
     std::span<float*> run_relit(Grid& grid, const jit::RecordSet& lights) const;
+    // What a kernel of the look gives in some of the light that the grid's tape and its records
+    // have; it prints and bakes nothing.
+    std::span<float*> run_part(const BoundKernel& bound, Grid& grid, const LightPart& part) const;
     // Runs a kernel of the grid's look; its output rows, from the thread's arena.
     std::span<float*> run(const BoundKernel& bound, Grid& grid);
 
   private:
+    // In those lights; what it faults is not told. The grid's own record sets stay.
+    void run_again(const BoundKernel& bound, Grid& grid, KernelHost& host,
+                   std::span<float* const> out, const jit::RecordSet& lights) const;
+
     const ShadingFrame& frame_;
     const GridServices& services_;
     std::vector<std::vector<std::vector<uint8_t>>> faults_;  // [thread][look and kernel][site]

@@ -1,4 +1,4 @@
-// runtime/picture/shading/relight.cpp: kernels without lights, and under one.
+// runtime/picture/shading/relight.cpp: kernels under one white light.
 #include "runtime/picture/shading/relight.h"
 
 #include <algorithm>
@@ -8,13 +8,14 @@
 #include "raytrace/hits.h"
 #include "rsl/model/renderer_services.h"
 #include "runtime/picture/shading/grid.h"
+#include "runtime/picture/shading/light_layers.h"
 
 namespace kinora {
 
 namespace {
 
 bool is_relit(const OutputPlane& plane) {
-    return plane.source == AovSource::Albedo || plane.source == AovSource::Emission;
+    return plane.source == AovSource::Albedo;
 }
 
 float* filled(Arena& arena, size_t count, float value) {
@@ -35,7 +36,7 @@ jit::RecordSet white_light(const Grid& grid) {
         set_triple(L, i, glm::dot(N, along) > 0 ? -N : N);
     }
     std::span<const float*> columns =
-        arena.allocate_span<const float*>(rsl::kLightMessages + messages);
+        arena.allocate_span<const float*>(light_columns_of(grid.look->lowered));
     std::fill(columns.begin(), columns.end(), zeros);
     for (size_t k = 0; k < 3; ++k) {
         columns[rsl::kLightL + k] = L[k];
@@ -69,15 +70,13 @@ bool wants_relight(const SceneShaders& shaders) {
 void relight(Grid& grid, const KernelRunner& kernels, const raytrace::ShadeResult& result) {
     const std::vector<OutputPlane>& planes = grid.frame.shaders.outputs;
     const Color dark = color_under(grid, kernels, {});
-    const bool lit_too = std::ranges::count(planes, AovSource::Albedo, &OutputPlane::source) > 0 &&
-                         grid.look->lowered.uses_lights;
-    const Color lit = lit_too ? color_under(grid, kernels, white_light(grid)) : dark;
+    const Color lit =
+        grid.look->lowered.uses_lights ? color_under(grid, kernels, white_light(grid)) : dark;
     for (size_t p = 0; p < std::min(planes.size(), result.aov.size()); ++p) {
         const size_t c = planes[p].component;
         if (!is_relit(planes[p]) || !dark[c]) continue;
-        const bool albedo = planes[p].source == AovSource::Albedo;
         for (size_t i = 0; i < grid.count(); ++i)
-            result.aov[p][grid.points[i]] = albedo ? lit[c][i] - dark[c][i] : dark[c][i];
+            result.aov[p][grid.points[i]] = lit[c][i] - dark[c][i];
     }
 }
 

@@ -1,4 +1,4 @@
-// runtime/picture/shading/relight.h: AOVs of shaders that run once more in other light.
+// runtime/picture/shading/relight.h: AOVs of shaders that run once more under one white light.
 #pragma once
 
 #include "raytrace/wavefront.h"
@@ -8,11 +8,11 @@ namespace kinora {
 
 struct Grid;
 
-// Whether a plane is of albedo or emission.
+// Whether a plane is of albedo.
 bool wants_relight(const SceneShaders& shaders);
 
-// Fills those planes at the grid's points, whose kernel has run: emission is its Ci without lights
-// and rays, albedo what one white light along N adds to that, as seen by the eye.
+// Fills those planes at the grid's points, whose kernel has run: what one white light along N adds
+// to its Ci without lights and rays, as seen by the eye.
 void relight(Grid& grid, const KernelRunner& kernels, const raytrace::ShadeResult& result);
 
 }  // namespace kinora

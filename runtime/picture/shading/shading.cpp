@@ -14,6 +14,7 @@
 #include "runtime/picture/shading/hit_planes.h"
 #include "runtime/picture/shading/hit_shader.h"
 #include "runtime/picture/shading/imager.h"
+#include "runtime/picture/shading/light_layers.h"
 #include "runtime/picture/shading/lighting/lamps.h"
 #include "runtime/picture/shading/print.h"
 #include "runtime/picture/shading/ray_queue.h"
@@ -46,7 +47,7 @@ struct Shading::Objects {
     Prints prints;
     Bakes bakes{frame.resources, frame.pose};
     GridServices services{lights, rays, gathers, prints, bakes};
-    bool aims_reported = false;
+    bool aims_reported = false, layers_reported = false;
     // What the scene's shaders need of all frames: these do not look at each of them for it.
     std::vector<bool> looks_run;  // by look: see looks_that_run()
     // The others run once: volumes ask all lights, and see what those held then.
@@ -55,6 +56,15 @@ struct Shading::Objects {
     bool fills_space = false;  // an atmosphere of the background, or an exterior
     bool has_mattes = false;
     PixelCosts costs;
+
+    void report_layers(Diagnostics& diagnostics) {
+        LayerErrors all;
+        for (const auto& thread : threads)
+            for (size_t look = 0; look < thread->layer_errors.of_look.size(); ++look)
+                all.add(look, thread->layer_errors.of_look[look]);
+        if (!layers_reported)
+            layers_reported = report_layer_errors(frame.shaders, all, diagnostics);
+    }
 
     ShadingCounters counted() const {  // by all threads, in this frame
         ShadingCounters total;
@@ -89,6 +99,9 @@ Shading::Shading(const Scene& scene, const Pose& pose) {
     objects_->looks_run = looks_that_run(scene, objects_->lights);
     hash_names(scene, frame);
     frame.relit = wants_relight(scene);
+    frame.layers = find_light_layers(frame);
+    frame.layers_read_bare_light =
+        std::ranges::any_of(frame.layers, [](const LightLayer& layer) { return layer.part.bare; });
     objects_->reads_footprints = kinora::reads_footprints(scene);
     objects_->has_mattes = std::ranges::any_of(scene.surfaces, &Surface::matte);
     // Files that bring their picture are RIB, where an atmosphere is a surface's attribute.
@@ -180,6 +193,7 @@ ShadingCounters Shading::end_frame(Diagnostics& diagnostics, bool whole) {
                            diagnostics);
     objects_->bakes.flush(whole, diagnostics);
     objects_->kernels.report_faults(diagnostics);
+    objects_->report_layers(diagnostics);
     if (!std::exchange(objects_->aims_reported, true))
         report_aims(objects_->frame, objects_->lights.bindings(), diagnostics);
     objects_->frame.insight = {};  // what it fills need not be there any more

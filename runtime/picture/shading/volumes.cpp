@@ -17,6 +17,7 @@
 #include <glm/geometric.hpp>
 
 #include "raytrace/hits.h"
+#include "runtime/picture/shading/light_layers.h"
 #include "runtime/scene/medium.h"
 
 namespace kinora {
@@ -132,7 +133,9 @@ void Volumes::shade(Grid& grid, const BoundKernel& bound, const RayTag& ray, Lig
     load(kColCi, result.Ci);
     load(kColOi, result.Oi);
     if (grid.look->lowered.uses_lights) lights_.run(grid);
+    const bool layered = shadows && start_tape(grid, result);
     std::span<float*> out = kernels_.run(bound, grid);
+    if (layered) pass_light_layers(grid, bound, kernels_, result);
     auto store = [&](rsl::Global id, float* const to[3]) {
         float* from[3];
         find_color(bound.kernel(), out, id, from);

@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/kinora/contents.h"
+#include "runtime/scene/aovs/aovs.h"
 #include "runtime/scene/description/play_range.h"
+#include "runtime/scene/names.h"
 #include "runtime/scene/scene.h"
 
 namespace kinora {
@@ -135,9 +137,14 @@ std::string aov_line(const Json& row) {
 }
 
 // And of every material.
-Json built_in_aovs(const Scene&) {
+Json built_in_aovs(const Scene& scene) {
     Json list = Json::array();
-    for (const AovRow& row : aov_rows())
+    std::vector<AovRow> rows(aov_rows().begin(), aov_rows().end());
+    const std::vector<std::string> lights = light_aov_names(scene, scene);
+    for (const std::string& name : lights)
+        rows.push_back({name, "R G B", AovSource::Light, "", raytrace::AovFilter::Mean, 0,
+                        "what this light adds"});
+    for (const AovRow& row : rows)
         list.push_back({{"name", row.name},
                         {"channels", channel_names(row)},
                         {"filter", word_of(row.filter)},

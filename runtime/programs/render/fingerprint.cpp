@@ -88,6 +88,7 @@ std::string fingerprint(const RenderOptions& o, uint64_t inputs, int width, int 
             fmt::format(" background {} {} {}", o.background->x, o.background->y, o.background->z);
     text += fmt::format(" imager {} atmosphere {} aovs {} transparency {}", o.imager, o.atmosphere,
                         fmt::join(o.aovs, ","), int(o.transparency));
+    for (const std::string& group : o.light_groups) text += fmt::format(" group {}", group);
     text += fmt::format(" lights {} gi {} hide {} only {} clip {}", int(o.lights), o.gi,
                         fmt::join(o.hide, ","), fmt::join(o.only, ","), o.clip);
     auto point = [](const std::optional<dvec3>& p) {

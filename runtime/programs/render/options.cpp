@@ -186,6 +186,8 @@ void declare_look(CLI::App& app, Given& given, RenderOptions& o) {
         "NAME or NAME:FILTER: channels of the EXR: P, N, Z, ..., output parameters of surfaces, "
         "or all; --list aovs shows them",
         ',');
+    add_list(app, "--light-group", o.light_groups,
+             "NAME=GLOB,...: an AOV of what these lights add; may be given again");
     add_choice<UpAxis>(app, "--up", o.up_axis,
                        {{"X", UpAxis::X}, {"Y", UpAxis::Y}, {"Z", UpAxis::Z}},
                        "X, Y or Z instead of the file's up axis");
@@ -285,7 +287,8 @@ void interpret_output(const Given& given, RenderOptions& o) {
     if (!o.contact_sheet.empty() && !has_extension(o.contact_sheet, {".png"}))
         throw CLI::ValidationError("--contact-sheet", "takes a name that ends in .png");
     bool pictures = !o.output.empty() || !o.contact_sheet.empty();
-    if (!o.aovs.empty() && pictures && !has_extension(o.output, {".exr"}))
+    if (!(o.aovs.empty() && o.light_groups.empty()) && pictures &&
+        !has_extension(o.output, {".exr"}))
         throw CLI::ValidationError("--aov", "needs -o FILE.exr: only EXR holds further channels");
     o.stats = !given.stats.empty() && given.stats != "none";
     o.stats_json = given.stats == "json";

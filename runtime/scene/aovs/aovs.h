@@ -23,6 +23,11 @@ enum class AovSource : uint8_t {
     Motion,
     Albedo,  // of the shader, run once more in other light
     Emission,
+    Direct,  // of the shader, run once more with some of its light
+    Indirect,
+    Light,  // of some lights: OutputPlane::lights
+    Rest,
+    Shadow,
     CryptoObject,  // names of hits by coverage
     CryptoMaterial,
     Samples,  // numbers of a pixel
@@ -54,6 +59,9 @@ bool is_exact(const AovRow& row);
 
 // The word of a filter: "filter", "average", "nearest", "min", "max".
 std::string_view word_of(raytrace::AovFilter filter);
+
+// Before the name of a light: the AOV of what it lights.
+inline constexpr std::string_view kLightAov = "light_";
 
 // "all": every row and every output of the scene's shaders.
 inline constexpr std::string_view kAllAovs = "all";

@@ -8,7 +8,9 @@
 
 #include "raytrace/wavefront.h"
 #include "runtime/base/arena.h"
+#include "runtime/picture/shading/frame/answer_tape.h"
 #include "runtime/picture/shading/frame/insight.h"
+#include "runtime/picture/shading/frame/light_layers.h"
 #include "runtime/scene/lights.h"
 #include "runtime/scene/nodes.h"
 #include "runtime/scene/pose.h"
@@ -72,7 +74,9 @@ struct ShadingFrame : EyeSpace {
     float miss_distance = 0;  // the same where some volume or the dome lies there, else 0
     // Of each surface, where an AOV has them: crypto_id() of its node's path and its material.
     std::vector<float> object_crypto = {}, material_crypto = {};
-    bool relit = false;  // an AOV is of albedo or emission
+    bool relit = false;                   // an AOV is of albedo
+    std::vector<LightLayer> layers = {};  // AOVs of light; none: no kernel runs for them
+    bool layers_read_bare_light = false;
     const std::atomic<int>* stop = nullptr;
     ShadingInsight insight = {};
 
@@ -93,7 +97,9 @@ struct ThreadMemory {
     Arena arena{1 << 20};
     ShadingCounters counters;
     std::vector<std::unique_ptr<Level>> levels;
-    size_t level = 0;  // levels in use
+    size_t level = 0;                  // levels in use
+    std::unique_ptr<AnswerTape> tape;  // for layers of light: of one grid at a time
+    LayerErrors layer_errors;
 };
 using ThreadMemories = std::vector<std::unique_ptr<ThreadMemory>>;
 

@@ -24,7 +24,14 @@ struct ChosenPair {
 };
 
 // Rows of a record that is made of many lights' outputs; messages follow.
-enum ChosenRow : size_t { kRowL = 0, kRowCl = 3, kRowOl = 6, kRowLit = 9, kRowMessages = 10 };
+enum ChosenRow : size_t {
+    kRowL = 0,
+    kRowCl = 3,
+    kRowOl = 6,
+    kRowLit = 9,
+    kRowLamp = 10,
+    kRowMessages = 11
+};
 
 // The rows of all records, beside each other.
 struct ChosenRows {
@@ -182,6 +189,7 @@ LightOutputs statement_of_rows(const LightOutputs& like) {
         statement.Ol[k] = int(kRowOl) + k;
     }
     statement.lit = int(kRowLit);
+    statement.lamp = int(kRowLamp);
     return statement;
 }
 
@@ -213,6 +221,8 @@ void LightRecords::chosen_records(Making& making, const LampGroup& group) {
     for (size_t begin = 0, end; begin < pairs.size(); begin = end) {
         for (end = begin + 1; end < pairs.size() && pairs[end].lamp == pairs[begin].lamp;) ++end;
         const uint32_t light = group.lights[pairs[begin].lamp];
+        for (const ChosenPair& pair : pairs.subspan(begin, end - begin))
+            rows.row(pair.record, kRowLamp)[pair.point] = jit::float_of(int32_t(light) + 1);
         run(frame_.lights.lights[light], bindings_.statements(light)[0],
             bindings_.binding(making.grid.look->index, light).messages,
             pairs.subspan(begin, end - begin), rows);

@@ -334,6 +334,7 @@ void LightRecords::dark_records(Making& making, const LightOutputs& statement,
     std::span<const float*> columns =
         arena.allocate_span<const float*>(rsl::kLightMessages + binding.messages.size());
     std::fill(columns.begin(), columns.end(), making.at.zeros - making.at.first);
+    columns[rsl::kLightLamp] = nullptr;
     const float* uniforms =
         record_uniforms(frame_.pose, arena, statement, binding, making.light_begin);
     while (making.record_count < end) {
@@ -501,7 +502,11 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
         set(rsl::kLightOl + k, statement.Ol[k]);
     }
     set(rsl::kLightDensity, statement.density);
-    for (size_t k = 0; k < 3 && making.grid.look->lowered.reads_bare_light; ++k)
+    columns[rsl::kLightLamp] = nullptr;
+    set(rsl::kLightLamp, statement.lamp);
+    const bool bare = making.grid.look->lowered.reads_bare_light ||
+                      (frame_.layers_read_bare_light && making.grid.depth == 0);
+    for (size_t k = 0; k < 3 && bare; ++k)
         columns[rsl::kLightBare + k] = copy_of(columns[rsl::kLightCl + k], padded(at.count), arena);
     if (statement.lit < 0) columns[rsl::kLightLit] = ones_column(arena, at.count);
     set(rsl::kLightLit, statement.lit);
@@ -524,7 +529,8 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
             making.sent_count += shines;
     }
     // Columns are read at the grid's point, so those of a part of it start before it.
-    for (const float*& column : columns) column -= at.first;
+    for (const float*& column : columns)
+        if (column) column -= at.first;
     making.make_room();
     making.records[making.record_count++] = {
         columns.data(),

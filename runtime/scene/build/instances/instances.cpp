@@ -78,7 +78,9 @@ bool add_instances(Scene& scene, std::span<const SurfaceUse> uses, Diagnostics& 
     SurfaceInstances surfaces(scene, shapes, shaders, vertices, volumes, diagnostics);
     for (size_t s = 0; s < shapes.surfaces.size(); ++s) surfaces.add(shapes.surfaces[s], uses[s]);
     add_atmosphere(description, camera, shaders);
-    OutputPlanes outputs(shaders, scene.options.aovs, displays_of(scene),
+    const std::vector<LightGroup> lights = single_lights(scene),
+                                  groups = light_groups(scene, diagnostics);
+    OutputPlanes outputs(shaders, scene.options.aovs, lights, groups, displays_of(scene),
                          imagers_of(description, camera), diagnostics);
     add_imager(description, camera, shaders, outputs.outputs());
     bool compiled = compile_instances(shaders, outputs, compiler);

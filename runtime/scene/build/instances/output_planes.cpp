@@ -2,6 +2,7 @@
 #include "runtime/scene/build/instances/output_planes.h"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <optional>
@@ -80,10 +81,17 @@ uint32_t component_of(size_t c, size_t channels, size_t outputs) {
 }  // namespace
 
 OutputPlanes::OutputPlanes(SceneShaders& scene, std::span<const std::string> wanted,
+                           std::span<const LightGroup> lights, std::span<const LightGroup> groups,
                            std::span<const FileDisplay> displays,
                            std::span<const ShaderUse> imagers, Diagnostics& diagnostics)
-    : scene_(scene) {
+    : scene_(scene), lights_(lights), groups_(groups) {
     for (const std::string& text : wanted) add_wanted(text, diagnostics);
+    for (const LightGroup& group : groups_) {
+        if (find_aov_row(group.aov) || find_output(scene_, group.aov))
+            diagnostics.report(Code::LIGHT_GROUP_FORM, Location{}, group.aov);
+        else if (!is_there(group.aov))
+            add_group(group, {group.aov});
+    }
     for (const FileDisplay& display : displays) add_display(display, diagnostics);
     for (const ShaderUse& use : imagers)
         for (const rsl::ShaderParameter& p : use.shader->parameters)
@@ -99,7 +107,8 @@ void OutputPlanes::add_wanted(const std::string& text, Diagnostics& diagnostics)
         add_all(*wanted, diagnostics);
     else if (is_there(wanted->name))
         diagnostics.report(Code::AOV_REPEATED, Location{}, wanted->name);
-    else if (!add_built_in(*wanted, diagnostics) && !add_output(*wanted, Reader::File))
+    else if (!add_built_in(*wanted, diagnostics) && !add_lights(*wanted) &&
+             !add_output(*wanted, Reader::File))
         diagnostics.report(Code::AOV_UNKNOWN, Location{}, wanted->name);
 }
 
@@ -146,6 +155,32 @@ bool OutputPlanes::add_built_in(const WantedAov& wanted, Diagnostics& diagnostic
         scene_.outputs.push_back(plane);
     }
     return true;
+}
+
+// Lights and groups whose AOVs the name matches; false: there are none.
+bool OutputPlanes::add_lights(const WantedAov& wanted) {
+    bool any = false;
+    for (const std::span<const LightGroup> all : {groups_, lights_})
+        for (const LightGroup& group : all) {
+            if (fnmatch(wanted.name.c_str(), group.aov.c_str(), 0) != 0) continue;
+            any = true;
+            if (!is_there(group.aov)) add_group(group, wanted);
+        }
+    return any;
+}
+
+void OutputPlanes::add_group(const LightGroup& group, const WantedAov& wanted) {
+    OutputPlane plane;
+    plane.layer = group.aov;
+    plane.source = AovSource::Light;
+    plane.lights = group.lights;
+    plane.half = wanted.half;
+    plane.filter = wanted.filter.value_or(AovFilter::Mean);
+    for (uint32_t c = 0; c < 3; ++c) {
+        plane.name = fmt::format("{}.{}", group.aov, "RGB"[c]);
+        plane.component = c;
+        scene_.outputs.push_back(plane);
+    }
 }
 
 // False where no surface has that output.
