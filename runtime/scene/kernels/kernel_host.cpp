@@ -20,6 +20,9 @@ void WorldHost::environment(const jit::ServiceCall& call) {
 void WorldHost::maplight(const jit::ServiceCall& call) {
     lookup_map_light(call, textures());
 }
+void WorldHost::mapdensity(const jit::ServiceCall& call) {
+    lookup_map_density(call, textures());
+}
 void WorldHost::mapdirection(const jit::ServiceCall& call) {
     lookup_map_direction(call, textures());
 }
