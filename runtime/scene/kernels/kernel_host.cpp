@@ -34,7 +34,7 @@ void WorldHost::shadow(const jit::ServiceCall& call) {
 }
 
 void WorldHost::stratified(const jit::ServiceCall& call) {
-    answer_stratified(call, nullptr);
+    answer_stratified(call);
 }
 
 void WorldHost::transform(const jit::ServiceCall& call) {
