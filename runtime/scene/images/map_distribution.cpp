@@ -26,6 +26,15 @@ double within_unit(double u) {
     return u > 0 ? std::min(u, 1 - 0x1p-32) : 0.0;
 }
 
+// A search begins at the cell of a number: four texels a cell are found in as many steps as one.
+uint32_t cells_of(uint32_t columns) {
+    return columns / 4 + 1;
+}
+// Grows with the share, which is in [0, 1].
+uint32_t cell_of(float share, uint32_t cells) {
+    return uint32_t(double(share) * cells);
+}
+
 // Of a texel's neighbours the share that a tent reaches: -1 to 1.
 double tent(double u) {
     return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
@@ -63,6 +72,14 @@ void MapDistribution::add_row(std::span<const float> brightness) {
         so_far += light_of(brightness[c]);
         below_.push_back(float(sum > 0 ? so_far / sum : double(c + 1) / double(brightness.size())));
     }
+    uint32_t column = 0;
+    const uint32_t cells = cells_of(columns_);
+    for (uint32_t cell = 0; cell <= cells; ++cell) {
+        while (column < columns_ &&
+               cell_of(below_[below_.size() - columns_ + column], cells) < cell)
+            ++column;
+        first_in_cell_.push_back(column);
+    }
     const double before = below_row_.empty() ? 0.0 : below_row_.back();
     below_row_.push_back(before +
                          sum * std::sin(kPi * (double(below_row_.size()) + 0.5) / double(rows_)));
@@ -79,7 +96,10 @@ MapDistribution::Choice MapDistribution::choose_row(double u) const {
 MapDistribution::Choice MapDistribution::choose_column(uint32_t row, float u) const {
     const std::span<const float> below(below_.data() + size_t(row) * columns_, columns_);
     const float wanted = u > 0 ? std::min(u, below.back()) : 0.0f;
-    const auto found = std::upper_bound(below.begin(), below.end(), wanted);
+    const uint32_t cells = cells_of(columns_);
+    const uint32_t* first = first_in_cell_.data() + size_t(row) * (cells + 1) +
+                            std::min(cell_of(wanted, cells), cells - 1);
+    const auto found = std::upper_bound(below.begin() + first[0], below.begin() + first[1], wanted);
     const size_t column = std::min(size_t(found - below.begin()), below.size() - 1);
     const double before = column ? double(below[column - 1]) : 0.0,
                  own = double(below[column]) - before;

@@ -50,6 +50,9 @@ class MapDistribution {
     uint32_t columns_ = 0, rows_ = 0;  // none: as bright everywhere
     std::vector<double> below_row_;    // light of the rows before and with each, summed
     std::vector<float> below_;         // of a row's: shares of the texels before and with each
+    // Of a row, by cells of equal width from 0 to 1: its first texel whose number in below_ lies in
+    // that cell or a later one.
+    std::vector<uint32_t> first_in_cell_;
 };
 
 }  // namespace kinora
