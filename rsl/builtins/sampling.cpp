@@ -93,15 +93,15 @@ void mapdirection(LowerCall& c) {
     c.set_output(3, lowered(BaseType::Float, found[3]));
     c.set(V3{found[0], found[1], found[2]});
 }
-std::vector<Value> light_of_map(LowerCall& c) {
+std::vector<Value> along_map(LowerCall& c, Service service) {
     V3 D = c.v3(1);
-    return c.services.call(Service::maplight, std::array{c.f(0), D[0], D[1], D[2]});
+    return c.services.call(service, std::array{c.f(0), D[0], D[1], D[2]});
 }
 void mapdensity(LowerCall& c) {
-    c.set(light_of_map(c)[3]);
+    c.set(along_map(c, Service::mapdensity)[0]);
 }
 void maplight(LowerCall& c) {
-    std::vector<Value> light = light_of_map(c);
+    std::vector<Value> light = along_map(c, Service::maplight);
     c.set(V3{light[0], light[1], light[2]});
 }
 
@@ -180,18 +180,18 @@ void mapdirection(RefCall<Real>& c) {
     set_from(c, found);
 }
 template <class Real>
-std::vector<double> light_of_map(RefCall<Real>& c) {
+std::vector<double> along_map(RefCall<Real>& c, Service service) {
     std::vector<double> args;
     for (size_t k = 0; k < 2; ++k) add(args, c.args[k]);
-    return c.eval.service(Service::maplight, args);
+    return c.eval.service(service, args);
 }
 template <class Real>
 void mapdensity(RefCall<Real>& c) {
-    set_from(c, light_of_map(c), 3);
+    set_from(c, along_map(c, Service::mapdensity));
 }
 template <class Real>
 void maplight(RefCall<Real>& c) {
-    set_from(c, light_of_map(c));
+    set_from(c, along_map(c, Service::maplight));
 }
 template <class Real>
 void lightsample(RefCall<Real>& c) {

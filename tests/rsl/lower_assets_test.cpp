@@ -37,6 +37,7 @@ constexpr ServiceTable kServiceTable = {
     .texture = texture_service,
     .environment = texture_service,
     .maplight = answer_zeros<Service::maplight>,
+    .mapdensity = answer_zeros<Service::mapdensity>,
     .mapdirection = answer_zeros<Service::mapdirection>,
     .shadow = answer_zeros<Service::shadow>,
     .textureinfo = answer_zeros<Service::textureinfo>,

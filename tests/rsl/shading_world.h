@@ -73,6 +73,7 @@ inline constexpr ServiceTable kSmoothWorld = {
     .texture = answer_smoothly<Service::texture>,
     .environment = answer_smoothly<Service::environment>,
     .maplight = answer_zeros<Service::maplight>,
+    .mapdensity = answer_zeros<Service::mapdensity>,
     .mapdirection = answer_zeros<Service::mapdirection>,
     .shadow = answer_smoothly<Service::shadow>,
     .textureinfo = answer_zeros<Service::textureinfo>,

@@ -1,6 +1,7 @@
 // runtime/picture/shading/grid_host.h: a scene's answers to its kernels at the points of a grid.
 #pragma once
 
+#include "runtime/scene/kernels/stratified_kernels.h"
 #include "runtime/scene/shaders/scene_host.h"
 
 namespace kinora {
@@ -43,6 +44,13 @@ class PictureHost : public SceneHost {
   protected:
     Grid& grid_;
     const GridServices& services_;
+
+  private:
+    void place_samples(int32_t first);
+
+    // What the lanes from `placed_` on draw from; kept, as a loop draws from it again and again.
+    SamplePlaces places_;
+    int32_t placed_ = -1;
 };
 
 // A kernel that shades its points.

@@ -106,8 +106,9 @@ void KernelRunner::prepare(Grid& grid, const RayTag& ray) const {
         grid.rays = arena.allocate_span<PointRays>(grid.count());
         start_accounts(grid);
     }
+    // Services fill a set before they return its handle; set 0 needs no handle.
     grid.record_sets = arena.allocate_span<jit::RecordSet>(kRecordSets);
-    std::fill(grid.record_sets.begin(), grid.record_sets.end(), jit::RecordSet{});
+    grid.record_sets[0] = {};
 }
 
 void KernelRunner::start_accounts(Grid& grid) const {

@@ -67,14 +67,20 @@ void PictureHost::raylimit(const jit::ServiceCall& call) {
     }
 }
 void PictureHost::stratified(const jit::ServiceCall& call) {
-    raytrace::SampleSeries place[jit::kMaxLanes];
+    if (call.first != placed_) place_samples(call.first);
+    answer_stratified(call, places_);
+}
+void PictureHost::place_samples(int32_t first) {
+    placed_ = first;
     for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
-        const size_t i = std::min(size_t(call.first + lane), grid_.count() - 1);
-        place[lane] = grid_.series ? grid_.series[i]
-                                   : series_of(grid_.hits, grid_.points[i], grid_.frame.seed);
-        place[lane].seed = raytrace::hash(place[lane].seed, uint32_t(grid_.look->index));
+        const size_t i = std::min(size_t(first + lane), grid_.count() - 1);
+        const raytrace::SampleSeries place =
+            grid_.series ? grid_.series[i]
+                         : series_of(grid_.hits, grid_.points[i], grid_.frame.seed);
+        places_.seed[lane] = raytrace::hash(place.seed, uint32_t(grid_.look->index));
+        places_.part[lane] = place.part;
+        places_.shared[lane] = place.shared;
     }
-    answer_stratified(call, place);
 }
 void PictureHost::samplewish(const jit::ServiceCall& call) {
     if (grid_.answer)

@@ -2,11 +2,13 @@
 #include "runtime/scene/images/map_light.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
 #include "jit/ir/kernel_call.h"
 #include "rsl/model/renderer_services.h"
+#include "runtime/scene/images/latlong/kernels.h"
 #include "runtime/scene/images/map_distribution.h"
 #include "runtime/scene/images/texture.h"
 #include "runtime/scene/images/texture_store.h"
@@ -105,27 +107,25 @@ float argument(const jit::ServiceCall& call, int row, int lane) {
     return call.args[row * jit::kMaxLanes + lane];
 }
 
-// Calls f(lane, distribution) for the lanes that ask; those of one map follow each other.
+// Calls f(lanes, distribution) for the lanes that ask, those of one map together.
 template <class F>
-void for_each_lane(const jit::ServiceCall& call, int map_row, TextureStore& store, F&& f) {
+void for_each_map(const jit::ServiceCall& call, int map_row, TextureStore& store, F&& f) {
     static const MapDistribution white;
-    int32_t last = 0;
-    const MapDistribution* distribution = &white;
-    for (int lane = 0; lane < jit::kMaxLanes; ++lane) {
-        if (!(call.mask >> lane & 1)) continue;
-        const int32_t map = jit::bits_of(argument(call, map_row, lane));
-        if (map != last) {
-            last = map;
-            const MapDistribution* found = distribution_of(store, map);
-            distribution = found ? found : &white;
-        }
-        f(lane, *distribution);
+    for (uint32_t left = call.mask; left;) {
+        const int32_t map = jit::bits_of(argument(call, map_row, std::countr_zero(left)));
+        uint32_t same = 0;
+        for (int lane = 0; lane < jit::kMaxLanes; ++lane)
+            same |= uint32_t(jit::bits_of(argument(call, map_row, lane)) == map) << lane;
+        same &= left;
+        left &= ~same;
+        const MapDistribution* found = distribution_of(store, map);
+        f(same, found ? *found : white);
     }
 }
 
 }  // namespace
 
-// The light of all lanes at once.
+// The light of all lanes at once. Of lanes without a map it is the fill color, white.
 void lookup_map_light(const jit::ServiceCall& call, TextureStore& store) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::maplight, name).first;
@@ -136,23 +136,32 @@ void lookup_map_light(const jit::ServiceCall& call, TextureStore& store) {
     constexpr int kLanes = jit::kMaxLanes;
     alignas(64) float args[rsl::argument_count(rsl::Service::environment) * kLanes] = {},
                                                                             light[4 * kLanes] = {};
-    for (int lane = 0; lane < kLanes; ++lane) {
-        args[looks_at("map") * kLanes + lane] = argument(call, at("map"), lane);
-        for (int k = 0; k < 3; ++k)
-            args[(looks_at("R") + k) * kLanes + lane] = argument(call, at("D") + k, lane);
-        const int32_t map = jit::bits_of(argument(call, at("map"), lane));
-        if ((call.mask >> lane & 1) && !store.find(map)) args[looks_at("fill") * kLanes + lane] = 1;
+    std::copy_n(call.args + at("map") * kLanes, kLanes, args + looks_at("map") * kLanes);
+    std::copy_n(call.args + at("D") * kLanes, 3 * kLanes, args + looks_at("R") * kLanes);
+    int32_t map = 0;
+    float fill = 1;
+    for (uint32_t left = call.mask; left; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        const int32_t own = jit::bits_of(argument(call, at("map"), lane));
+        if (left == call.mask || own != map) map = own, fill = store.find(map) ? 0.0f : 1.0f;
+        args[looks_at("fill") * kLanes + lane] = fill;
     }
     lookup_environment({nullptr, args, light, call.mask, 0, kLanes}, store);
-    for_each_lane(call, at("map"), store, [&](int lane, const MapDistribution& distribution) {
-        vec3 D, seen;
-        for (int k = 0; k < 3; ++k) {
-            D[k] = argument(call, at("D") + k, lane);
-            seen[k] = light[k * kLanes + lane];
-        }
-        seen = sound(seen);
+    for (uint32_t left = call.mask; left; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        const vec3 seen = sound({light[lane], light[kLanes + lane], light[2 * kLanes + lane]});
         for (int k = 0; k < 3; ++k) call.results[k * kLanes + lane] = seen[k];
-        call.results[3 * kLanes + lane] = distribution.density(D);
+    }
+}
+
+void lookup_map_density(const jit::ServiceCall& call, TextureStore& store) {
+    constexpr auto at = [](std::string_view name) consteval {
+        return rsl::service_argument(rsl::Service::mapdensity, name).first;
+    };
+    LatlongPlaces places;
+    latlong_kernels().places(call.args + at("D") * jit::kMaxLanes, places);
+    for_each_map(call, at("map"), store, [&](uint32_t lanes, const MapDistribution& distribution) {
+        distribution.densities(lanes, places, call.results);
     });
 }
 
@@ -160,12 +169,10 @@ void lookup_map_direction(const jit::ServiceCall& call, TextureStore& store) {
     constexpr auto at = [](std::string_view name) consteval {
         return rsl::service_argument(rsl::Service::mapdirection, name).first;
     };
-    for_each_lane(call, at("map"), store, [&](int lane, const MapDistribution& distribution) {
-        float density = 0;
-        const vec3 D = distribution.direction(
-            {argument(call, at("x"), lane), argument(call, at("y"), lane)}, density);
-        for (int k = 0; k < 3; ++k) call.results[k * jit::kMaxLanes + lane] = D[k];
-        call.results[3 * jit::kMaxLanes + lane] = density;
+    for_each_map(call, at("map"), store, [&](uint32_t lanes, const MapDistribution& distribution) {
+        distribution.directions(lanes, call.args + at("x") * jit::kMaxLanes,
+                                call.args + at("y") * jit::kMaxLanes, call.results,
+                                call.results + 3 * jit::kMaxLanes);
     });
 }
 

@@ -20,9 +20,10 @@ void light_of_map(TextureStore& store, int32_t map, std::span<const vec3> direct
 // Directions by the light of a map, made when it is first asked for. Null for the name "".
 const MapDistribution* distribution_of(TextureStore& store, int32_t map);
 
-// The services "maplight" and "mapdirection" (rsl/model/services.def). A map of the name "" is
-// white. Where texels are no numbers, or below 0, a map sends nothing.
+// The services "maplight", "mapdensity" and "mapdirection" (rsl/model/services.def). A map of the
+// name "" is white. Where texels are no numbers, or below 0, a map sends nothing.
 void lookup_map_light(const jit::ServiceCall& call, TextureStore& store);
+void lookup_map_density(const jit::ServiceCall& call, TextureStore& store);
 void lookup_map_direction(const jit::ServiceCall& call, TextureStore& store);
 
 }  // namespace kinora

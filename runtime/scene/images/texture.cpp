@@ -9,6 +9,7 @@
 #include "jit/ir/ir.h"
 #include "rsl/model/renderer_services.h"
 #include "runtime/scene/description/scene_description.h"
+#include "runtime/scene/images/latlong/kernels.h"
 #include "runtime/scene/images/texture_p.h"
 
 namespace kinora {
@@ -60,36 +61,18 @@ const Texture* texture_of(TextureStore& store, const float* names, uint32_t mask
     return find_texture(store, jit::bits_of(names[std::countr_zero(mask)]));
 }
 
-// Directions as coordinates, footprints as their angles: lanes without a direction leave `mask`.
-struct DirectionRows {
-    alignas(64) float s[jit::kMaxLanes], t[jit::kMaxLanes], ds[jit::kMaxLanes], dt[jit::kMaxLanes];
+// Directions as coordinates, footprints as their angles.
+LatlongPlaces places_of(const jit::ServiceCall& call) {
+    static_assert(kLatlongLanes == jit::kMaxLanes);
+    constexpr int kFirst = rsl::service_argument(rsl::Service::environment, "R").first;
+    LatlongPlaces places;
+    latlong_kernels().footprints(argument(call, kFirst), places);
+    return places;
+}
+uint32_t usable_lanes(const LatlongPlaces& places) {
     uint32_t mask = 0;
-};
-DirectionRows directions_of(const jit::ServiceCall& call) {
-    DirectionRows rows;
-    constexpr float kPiF = 3.14159265358979f;
-    for (int i = 0; i < jit::kMaxLanes; ++i) {
-        float v[9];  // R, dRdx, dRdy
-        constexpr int kFirst = rsl::service_argument(rsl::Service::environment, "R").first;
-        for (int k = 0; k < 9; ++k) v[k] = argument(call, kFirst + k)[i];
-        float large = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-        float sum = v[0] + v[1] + v[2];
-        bool usable = large > 0 && large < HUGE_VALF && sum == sum;
-        float scale = usable ? 1.0f / large : 0.0f;
-        if (!(scale < HUGE_VALF)) scale = 0.0f, usable = false;  // 1 / a denormal
-        for (float& x : v) x *= scale;
-        latlong_of_direction(v[0], v[1], v[2], rows.s[i], rows.t[i]);
-        auto squared = [&](int k) {
-            return v[k] * v[k] + v[k + 1] * v[k + 1] + v[k + 2] * v[k + 2];
-        };
-        float length = std::sqrt(squared(0));
-        float angle = std::sqrt(std::max(squared(3), squared(6))) / length;
-        float around = std::sqrt(v[0] * v[0] + v[2] * v[2]) / length;  // cosine of the latitude
-        rows.dt[i] = angle / kPiF;
-        rows.ds[i] = std::min(0.5f * rows.dt[i] / std::max(around, 1e-4f), 1.0f);
-        rows.mask |= uint32_t(usable) << i;
-    }
-    return rows;
+    for (int i = 0; i < kLatlongLanes; ++i) mask |= places.usable[i] << i;
+    return mask;
 }
 
 constexpr auto filled_row(float value) {
@@ -167,14 +150,15 @@ void lookup_environment(const jit::ServiceCall& call, TextureStore& store, Textu
     };
     auto row = [&](int index) { return argument(call, index); };
     const float *map = row(at("map")), *fill = row(at("fill"));
-    DirectionRows directions = directions_of(call);
-    TextureLanes lanes{row(at("channel")), directions.s,  directions.t,  directions.ds,
-                       kZeros.data(),      kZeros.data(), directions.dt, row(at("blur")),
-                       kOnes.data(),       kOnes.data(),  fill,          call.results};
+    const LatlongPlaces places = places_of(call);
+    const uint32_t usable = usable_lanes(places);
+    TextureLanes lanes{row(at("channel")), places.s,      places.t,  places.ds,
+                       kZeros.data(),      kZeros.data(), places.dt, row(at("blur")),
+                       kOnes.data(),       kOnes.data(),  fill,      call.results};
     TextureName modes;
     modes.wrap_t = TextureWrap::Clamp;
-    fill_lanes(call.mask & ~directions.mask, fill, call.results);
-    for (uint32_t left = call.mask & directions.mask; left;) {
+    fill_lanes(call.mask & ~usable, fill, call.results);
+    for (uint32_t left = call.mask & usable; left;) {
         uint32_t same = lanes_like_first(map, left);
         left &= ~same;
         const Texture* texture = texture_of(store, map, same);

@@ -240,22 +240,6 @@ void sample_lanes(const TexelSampler<Texel>& sampler, TextureFilter filter, uint
     }
 }
 
-// atan2 by Abramowitz & Stegun 4.4.49: |error| <= 2e-8 radians before rounding.
-float atan2_of(float y, float x) {
-    float ax = std::abs(x), ay = std::abs(y);
-    float large = std::max(ax, ay), small = std::min(ax, ay);
-    float z = large > 0.0f ? small / large : 0.0f, z2 = z * z;
-    float p = 0.0028662257f;
-    for (float c : {-0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f, -0.1420889944f,
-                    0.1999355085f, -0.3333314528f, 1.0f})
-        p = p * z2 + c;
-    p *= z;
-    constexpr float kPiF = 3.14159265358979f;
-    if (ay > ax) p = 0.5f * kPiF - p;
-    if (x < 0.0f) p = kPiF - p;
-    return y < 0.0f ? -p : p;
-}
-
 }  // namespace
 
 void sample_texture(const TexturePyramid& pyramid, const TextureName& modes, TextureFilter filter,
@@ -267,12 +251,6 @@ void sample_texture(const TexturePyramid& pyramid, const TextureName& modes, Tex
     else
         sample_lanes(TexelSampler<FloatTexel>{pyramid, modes, pyramid.float_texels()}, filter, mask,
                      lanes);
-}
-
-void latlong_of_direction(float x, float y, float z, float& s, float& t) {
-    constexpr float kInversePi = 0.318309886183791f;
-    s = atan2_of(-x, z) * (0.5f * kInversePi) + 0.5f;
-    t = atan2_of(y, std::sqrt(x * x + z * z)) * kInversePi + 0.5f;
 }
 
 }  // namespace kinora

@@ -22,7 +22,4 @@ inline constexpr int kMaxTaps = 16;
 void sample_texture(const TexturePyramid& pyramid, const TextureName& modes, TextureFilter filter,
                     uint32_t mask, const TextureLanes& lanes);
 
-// s, t of a direction in a latitude-longitude map (texture.h), t = 0 the bottom row.
-void latlong_of_direction(float x, float y, float z, float& s, float& t);
-
 }  // namespace kinora

@@ -20,6 +20,9 @@ void WorldHost::environment(const jit::ServiceCall& call) {
 void WorldHost::maplight(const jit::ServiceCall& call) {
     lookup_map_light(call, textures());
 }
+void WorldHost::mapdensity(const jit::ServiceCall& call) {
+    lookup_map_density(call, textures());
+}
 void WorldHost::mapdirection(const jit::ServiceCall& call) {
     lookup_map_direction(call, textures());
 }
@@ -31,7 +34,7 @@ void WorldHost::shadow(const jit::ServiceCall& call) {
 }
 
 void WorldHost::stratified(const jit::ServiceCall& call) {
-    answer_stratified(call, nullptr);
+    answer_stratified(call);
 }
 
 void WorldHost::transform(const jit::ServiceCall& call) {

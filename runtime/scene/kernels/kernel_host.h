@@ -42,6 +42,7 @@ class WorldHost : public KernelHost {
     void texture(const jit::ServiceCall& call) override;
     void environment(const jit::ServiceCall& call) override;
     void maplight(const jit::ServiceCall& call) override;
+    void mapdensity(const jit::ServiceCall& call) override;
     void mapdirection(const jit::ServiceCall& call) override;
     void shadow(const jit::ServiceCall& call) override;
     void textureinfo(const jit::ServiceCall& call) override;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "jit/ir/kernel_call.h"
-#include "raytrace/random/series.h"
+#include "runtime/scene/kernels/stratified_kernels.h"
 
 namespace kinora {
 
-// `place`: what the points of the call's lanes share with others; null: nothing, so that each
-// point has a sequence of its own.
-void answer_stratified(const jit::ServiceCall& call, const raytrace::SampleSeries* place);
+// `places`: what the points of the call's lanes share with others.
+void answer_stratified(const jit::ServiceCall& call, const SamplePlaces& places);
+
+// Each point has a sequence of its own.
+void answer_stratified(const jit::ServiceCall& call);
 
 }  // namespace kinora

@@ -69,6 +69,26 @@ TEST(MapDistribution, DirectionsHaveTheirDensity) {
     EXPECT_NEAR(sum / kSide / kSide, integral(shown), 0.01 * integral(shown));
 }
 
+// Directions that are chosen beside the picture's edges and about the poles, too.
+TEST(MapDistribution, DirectionsOfLargeMapsHaveTheirDensity) {
+    constexpr uint32_t kWide = 256, kHigh = 128;
+    std::vector<float> b(size_t(kWide) * kHigh);
+    for (uint32_t y = 0; y < kHigh; ++y)
+        for (uint32_t x = 0; x < kWide; ++x)
+            b[size_t(y) * kWide + x] = 2 + float(std::sin(0.3 * x) * std::cos(0.2 * y));
+    for (uint32_t x : {0u, kWide - 1}) b[size_t(40) * kWide + x] = 40;
+    for (uint32_t y : {0u, kHigh - 1}) b[size_t(y) * kWide + 7] = 900;
+    const MapDistribution map(kWide, kHigh, b);
+    for (int j = 0; j < 300; ++j)
+        for (int i = 0; i < 300; ++i) {
+            const vec2 u((i + 0.5f) / 300, (j + 0.5f) / 300);
+            float density = 0;
+            const vec3 d = map.direction(u, density);
+            ASSERT_GT(density, 0);
+            ASSERT_NEAR(map.density(d), density, 1e-4 * density) << i << ' ' << j;
+        }
+}
+
 // As bright as a lookup between four texels, up to a factor, away from the poles.
 TEST(MapDistribution, FollowsTheMapBetweenTexels) {
     const MapDistribution map(kColumns, kRows, sky());

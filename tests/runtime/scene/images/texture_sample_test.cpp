@@ -332,18 +332,5 @@ TEST(SrgbTable, FollowsTheStandard) {
     for (int i = 1; i < 256; ++i) EXPECT_GT(srgb_table()[size_t(i)], srgb_table()[size_t(i) - 1]);
 }
 
-TEST(Latlong, MatchesItsDefinitionInDouble) {
-    std::mt19937 random(5);
-    std::normal_distribution<float> normal;
-    for (int k = 0; k < 10000; ++k) {
-        float x = normal(random), y = normal(random), z = normal(random), s, t;
-        latlong_of_direction(x, y, z, s, t);
-        double want_s = std::atan2(-double(x), double(z)) / (2 * kPi) + 0.5;
-        double want_t = std::atan2(double(y), std::hypot(double(x), double(z))) / kPi + 0.5;
-        ASSERT_NEAR(s, want_s, 2e-7);
-        ASSERT_NEAR(t, want_t, 2e-7);
-    }
-}
-
 }  // namespace
 }  // namespace kinora
