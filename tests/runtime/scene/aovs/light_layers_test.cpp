@@ -19,7 +19,7 @@ struct Wanted {
 std::unique_ptr<Rendering> taken(const SceneText& scene, const Wanted& wanted) {
     SceneOptions options;
     options.aovs = wanted.aovs;
-    options.light_groups = wanted.groups = {};
+    options.light_groups = wanted.groups;
     auto r = std::make_unique<Rendering>(scene.text(), options);
     r->settings.integrator.samples_per_pixel = wanted.samples;
     r->frame();
