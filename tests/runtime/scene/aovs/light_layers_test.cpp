@@ -12,7 +12,7 @@ namespace kinora {
 namespace {
 
 struct Wanted {
-    std::vector<std::string> aovs, groups;
+    std::vector<std::string> aovs = {}, groups = {};
     int samples = 1;
 };
 
