@@ -24,6 +24,8 @@ class Files(ProgramTest):
         rows = json.loads(render(MATTE, "--list", "builtins", "--json").out)["builtins"]
         self.assertGreater(len(rows), 10)
         for row in rows:
+            if row["name"].startswith("light_default"):  # `all` takes no single lights
+                continue
             for channel in row["channels"]:
                 self.assertIn(channel, file["channels"])
             said = json.loads(file["texts"]["kinora/aov/" + row["name"]])

@@ -482,6 +482,20 @@ const float* copy_of(const float* column, size_t count, Arena& arena) {
     return copy.data();
 }
 
+SentLight sent_light(const LightOutputs& statement, std::span<float* const> out,
+                     const LightSamples* samples) {
+    SentLight sent = {};
+    sent.casts = statement.casts_shadow;
+    sent.solar = statement.kind == rsl::kLightSolar;
+    sent.lit = statement.lit < 0 ? nullptr : out[size_t(statement.lit)];
+    sent.samples = samples;
+    for (size_t k = 0; k < 3; ++k) {
+        sent.L[k] = out[size_t(statement.sampled ? statement.end[k] : statement.L[k])];
+        sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
+    }
+    return sent;
+}
+
 }  // namespace
 
 void LightRecords::make_record(Making& making, const LightOutputs& statement,
@@ -513,15 +527,7 @@ void LightRecords::make_record(Making& making, const LightOutputs& statement,
     for (size_t m = 0; m < messages.size(); ++m) set(rsl::kLightMessages + m, messages[m]);
     if (statement.kind != rsl::kLightAmbient && statement.L[0] >= 0) {
         SentLight& sent = making.sent[making.sent_count];
-        sent = {};
-        sent.casts = statement.casts_shadow;
-        sent.solar = statement.kind == rsl::kLightSolar;
-        sent.lit = statement.lit < 0 ? nullptr : out[size_t(statement.lit)];
-        sent.samples = samples;
-        for (size_t k = 0; k < 3; ++k) {
-            sent.L[k] = out[size_t(statement.sampled ? statement.end[k] : statement.L[k])];
-            sent.Cl[k] = statement.Cl[k] < 0 ? nullptr : out[size_t(statement.Cl[k])];
-        }
+        sent = sent_light(statement, out, samples);
         const bool shines = sent.Cl[0] && sent.Cl[1] && sent.Cl[2];
         if (shines && sample)
             shadow_sample(making.grid, at, sent);

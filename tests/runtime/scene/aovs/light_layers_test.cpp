@@ -67,7 +67,7 @@ TEST(LightLayers, HaveThePartOfEachLight) {
         .place("s", "l")
         .light("ahead", kSun)
         .light("aside", "<directional><color>0 2 0</color></directional>", kTurn)
-        .light("around", "<ambient><color>.5 .5 .5</color></ambient>");
+        .light("around", "<ambient><color>1 1 1</color></ambient>");
     const auto taken_frame = taken(
         scene, {{"direct", "indirect", "emission", "light_*", "light_rest"}, {"both=ahead,asi*"}});
     const Rendering& r = *taken_frame;
@@ -76,9 +76,9 @@ TEST(LightLayers, HaveThePartOfEachLight) {
     expect_color(layer(r, "indirect", 8, 8), {0, 0, 0}, "indirect");
     expect_color(layer(r, "light_ahead-node", 8, 8), {.5, .25, 1}, "ahead");
     expect_color(layer(r, "light_aside-node", 8, 8), {0, .25, 0}, "aside");
-    expect_color(layer(r, "light_around-node", 8, 8), {.25, .125, .5}, "around");
+    expect_color(layer(r, "light_around-node", 8, 8), {.5, .25, 1}, "around");
     expect_color(layer(r, "both", 8, 8), {.5, .5, 1}, "both");
-    expect_color(layer(r, "direct", 8, 8), {.75, .625, 1.5}, "direct");
+    expect_color(layer(r, "direct", 8, 8), {1, .75, 2}, "direct");
     expect_sum(r, {"emission", "direct", "indirect"});
 }
 
@@ -175,8 +175,8 @@ TEST(LightLayers, NameShadersThatAreNotLinear) {
         .look("plain", kMatte)
         .place("s", "toon", "<translate>-.5 0 0</translate>")
         .place("s", "plain", "<translate>.5 0 0</translate>")
-        .light("one", "<directional><color>.3 .3 .3</color></directional>")
-        .light("two", "<directional><color>.4 .4 .4</color></directional>");
+        .light("one", "<directional><color>.58 .58 .58</color></directional>")
+        .light("two", "<directional><color>.66 .66 .66</color></directional>");
     const auto taken_frame = taken(scene, {{"light_*"}});
     const Rendering& r = *taken_frame;
     ASSERT_EQ(r.count("AOV_NOT_LINEAR"), 1) << r.findings();
