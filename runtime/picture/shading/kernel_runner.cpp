@@ -128,21 +128,30 @@ size_t count_points(const Grid& grid, bool PointRays::*flag) {
 
 }  // namespace
 
-std::span<float*> KernelRunner::run_in_the_dark(Grid& grid) const {
+namespace {
+
+// A run whose faults may come of what it does not know.
+void run_untold(const ShadingFrame& frame, const BoundKernel& bound, Grid& grid, KernelHost& host,
+                std::span<float* const> out) {
     Arena& arena = grid.memory.arena;
-    const BoundKernel& bound = grid.look->full;
-    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), arena);
-    NotingHost host(grid, services_);
-    // Its faults may come of what it does not know.
     bound.run({.count = grid.count(),
-               .frame = block_of(frame_, *grid.look, bound),
+               .frame = block_of(frame, *grid.look, bound),
                .columns = grid.columns,
                .out = out,
                .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
                .record_sets = grid.record_sets,
                .host = host,
-               .stop = frame_.stop},
+               .stop = frame.stop},
               arena);
+}
+
+}  // namespace
+
+std::span<float*> KernelRunner::run_in_the_dark(Grid& grid) const {
+    const BoundKernel& bound = grid.look->full;
+    std::span<float*> out = take_outputs(bound.kernel(), grid.count(), grid.memory.arena);
+    NotingHost host(grid, services_);
+    run_untold(frame_, bound, grid, host, out);
     return out;
 }
 
@@ -153,15 +162,7 @@ void KernelRunner::run_again(const BoundKernel& bound, Grid& grid, KernelHost& h
     std::fill(sets.begin(), sets.end(), jit::RecordSet{});
     sets[0] = lights;
     std::swap(sets, grid.record_sets);
-    bound.run({.count = grid.count(),
-               .frame = block_of(frame_, *grid.look, bound),
-               .columns = grid.columns,
-               .out = out,
-               .faults = arena.allocate_span<uint8_t>(bound.kernel().fault_sites.size()),
-               .record_sets = grid.record_sets,
-               .host = host,
-               .stop = frame_.stop},
-              arena);
+    run_untold(frame_, bound, grid, host, out);
     std::swap(sets, grid.record_sets);
 }
 

@@ -17,7 +17,7 @@ namespace kinora {
 
 namespace {
 
-constexpr size_t kPlaces = 8, kOfPlace = 32, kProbes = kPlaces * kOfPlace;
+constexpr size_t kPlaces = 8, kOfPlace = 32, kProbeSamples = kPlaces * kOfPlace;
 constexpr double kSame = 1e-3;  // of the variances: rounding decides nothing
 
 // Points about a lamp, off its planes of symmetry and about as far as it is wide.
@@ -38,14 +38,14 @@ dvec3 place_about(const LampShape& shape, size_t k) {
 // Samples of the mesh by area, each lit from the place of its turn.
 struct Probes {
     Probes(Arena& arena, const AreaLight& light, const raytrace::Accel& accel)
-        : samples(arena, kProbes, light.surfaces[0]),
-          numbers(arena.allocate_span<uint32_t>(kProbes)) {
+        : samples(arena, kProbeSamples, light.surfaces[0]),
+          numbers(arena.allocate_span<uint32_t>(kProbeSamples)) {
         float* org[3];
         for (size_t c = 0; c < 3; ++c) {
-            org[c] = arena.allocate_span<float>(padded(kProbes)).data();
+            org[c] = arena.allocate_span<float>(padded(kProbeSamples)).data();
             samples.hits.org[c] = org[c];
         }
-        for (uint32_t i = 0; i < kProbes; ++i) {
+        for (uint32_t i = 0; i < kProbeSamples; ++i) {
             numbers[i] = i;
             const LampPlace place = place_on(light, vec2(raytrace::stratified_sample(i, 0)));
             samples.primitive[i] = place.triangle;
@@ -69,7 +69,7 @@ Squares squares_of(const AreaLight& light, const LightSamples& samples,
     Squares sum;
     const bool sphere = light.shape.kind == LampShape::Kind::Sphere;
     const double sides = sphere && !light.hides_far ? 2 : 1;
-    for (size_t i = 0; i < kProbes; ++i) {
+    for (size_t i = 0; i < kProbeSamples; ++i) {
         const dvec3 P(triple(samples.hits.org, i)), Ng(triple(samples.hits.Ng, i));
         const dvec3 L = dvec3(triple(samples.hits.P, i)) - P;
         const double square = glm::dot(L, L), across = std::abs(glm::dot(Ng, L));
