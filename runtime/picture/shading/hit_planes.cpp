@@ -45,11 +45,11 @@ float motion_at(const ShadingFrame& frame, const raytrace::HitBatch& hits, size_
     return float(motion[int(component % 2)]);
 }
 
-struct Row {
+struct PlaneRow {
     AovSource source;
     float (*number)(const ShadingFrame&, const raytrace::HitBatch&, size_t k, uint32_t component);
 };
-constexpr Row kRows[] = {
+constexpr PlaneRow kRows[] = {
     {AovSource::Distance, [](const ShadingFrame&, const raytrace::HitBatch& hits, size_t k,
                              uint32_t) { return hits.t[k]; }},
     {AovSource::Surface, [](const ShadingFrame&, const raytrace::HitBatch& hits, size_t k,
@@ -91,7 +91,7 @@ void fill_hit_planes(const ShadingFrame& frame, const raytrace::HitBatch& hits,
                      const raytrace::ShadeResult& result) {
     const std::vector<OutputPlane>& planes = frame.shaders.outputs;
     for (size_t p = 0; p < std::min(planes.size(), result.aov.size()); ++p) {
-        const auto* row = std::ranges::find(kRows, planes[p].source, &Row::source);
+        const auto* row = std::ranges::find(kRows, planes[p].source, &PlaneRow::source);
         if (row == std::end(kRows)) continue;
         for (size_t k = 0; k < hits.count; ++k)
             result.aov[p][k] = row->number(frame, hits, k, planes[p].component);
