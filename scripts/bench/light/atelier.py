@@ -2,6 +2,7 @@
 from pathlib import Path
 
 SIZE, BOUNCES = (160, 90), 2
+FIRST_ROW = 24  # above, lamps are seen, which Cycles does not show
 SCENE = Path(__file__).resolve().parent.parent.parent.parent / "assets/scenes/atelier.dae"
 # Tint, roughness, metal; two tints: a noise mixes them, as the co-shaders do.
 MATERIALS = {

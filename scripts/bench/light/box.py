@@ -1,5 +1,5 @@
 """The box of light_against_cycles: a lamp in its ceiling, a block, three bounces."""
-SIZE, BOUNCES, WATTS = (96, 96), 3, 12.0
+SIZE, BOUNCES, WATTS, FIRST_ROW = (96, 96), 3, 12.0, 0
 WHITE, RED, GREEN = (0.73, 0.73, 0.73), (0.65, 0.05, 0.05), (0.12, 0.45, 0.15)
 
 
