@@ -22,7 +22,7 @@ struct alignas(64) RectangleLanes {
     AngleLanes z;            // distance of the plane, above 0
     AngleLanes first, last;  // z of the normals of the planes through the point and the sides y
     AngleLanes angle;        // the solid angle
-    AngleLanes start;        // what is added to a part of it
+    AngleLanes start;        // offset from a part of it to the turn of a sample's plane
 };
 
 // Spheres as points see them.
