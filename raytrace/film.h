@@ -31,7 +31,7 @@ enum class AovOrigin : uint8_t {
     Surface,   // SurfaceShading::shade
     Samples,   // the integrator: how many samples the pixel has
     Variance,  // the integrator: of the samples' colours, unbiased; 0 with one sample
-    Light,     // SurfaceShading::shade and shade_misses: some of Ci, laid behind what is before it
+    Light,     // SurfaceShading::shade and shade_misses: part of Ci, composited as Ci is
     Coverage,  // the integrator: twelve planes one behind the other, ids of surfaces and how much
                // of the pixel each covers, by that. SurfaceShading::shade gives the first its ids
     Other,     // the caller, when the film is done

@@ -330,8 +330,8 @@ bool TileJob::shows_first(const HitBatch& hits, size_t k) const {
     return clear && there;
 }
 
-// How much of the sample's coverage is that of the hit: what it lets less through than was let
-// through to it. What mattes hide is none.
+// The hit's share of the sample's coverage: its opacity times the transmission of the layers before
+// it. Mattes have no coverage.
 double TileJob::hidden_by(const HitBatch& hits, size_t k) const {
     if (shading_.has_mattes() && shading_.is_matte(hits, k)) return 0;
     const size_t slot = m_.rays.slot[hits.ray[k]];

@@ -49,7 +49,7 @@ class TilePlanes {
     void keep(const Hit& hit, std::span<float* const> shaded);
     // Any hit of a sample, and how much of what lay behind it hides: once Ci and Oi are known.
     void cover(const Hit& hit, double part, std::span<float* const> shaded);
-    // Any hit or miss of a sample, and what is before it lets through.
+    // Composites a hit or a miss; `through`: the transmission of the layers before it.
     void lay(const Hit& hit, const float through[3], std::span<float* const> shaded);
     bool has_light() const { return has_light_; }
     bool has_coverage() const { return has_coverage_; }

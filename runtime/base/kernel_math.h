@@ -68,7 +68,8 @@ KINORA_KERNEL_PART double small_cosine(double x) {
     return (1 - 0.5 * s) + s * s * p;
 }
 
-// Cosine and sine of 2 pi turn, turn in [0, 1], by the nearest quarter turn and what is left.
+// Cosine and sine of 2 pi turn, turn in [0, 1], by the nearest quarter turn and the series of the
+// rest.
 KINORA_KERNEL_PART void turn_to(double turn, double& x, double& y) {
     double quarter = double(int32_t(turn * 4 + 0.5));
     double rest = (turn - quarter * 0.25) * 6.283185307179586477;

@@ -7,7 +7,7 @@
 
 namespace kinora {
 
-// The film's planes become those of the scene's outputs.
+// Gives the film a plane for each output of the scene.
 void prepare_planes(const SceneShaders& scene, raytrace::Film& film);
 
 bool has_plane_of(const SceneShaders& scene, AovSource source);

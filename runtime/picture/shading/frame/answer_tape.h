@@ -25,8 +25,8 @@ class AnswerTape {
     // Forgets all.
     void start();
     void keep_numbers(rsl::Service service, const jit::ServiceCall& call, size_t rows);
-    // Of so many columns and uniforms; those of a lane group are copied, since the arena's do not
-    // last. Columns may be null. `colors`: by column, or none.
+    // Copies the records' uniforms and columns, since those of a lane group do not last in its
+    // arena. Columns may be null. `colors`: by column, or none.
     void keep_records(rsl::Service service, const jit::ServiceCall& call, int32_t handle,
                       const jit::RecordSet& set, size_t uniforms, size_t columns,
                       std::span<const bool> colors);
